@@ -21,7 +21,7 @@ def without_numbers(message: str) -> str:
 
 
 class ModelError(ValueError):
-    """A structural model, or a number of it, that cannot be used; the message names the culprit.
+    """Raised if a structural model or one of its numbers is unusable; the message names the cause.
 
     Examples
     --------
@@ -35,7 +35,7 @@ class ModelError(ValueError):
 
 
 class ModelWarning(TextWarning):
-    """A structural model that can be used, with something that its user should know.
+    """Warning: a structural model can be used, but needs attention.
 
     Examples
     --------
@@ -65,7 +65,7 @@ class MotionError(ValueError):
 
 
 class MotionWarning(TextWarning):
-    """A ground motion that can be used, with something that its user should know.
+    """Warning: a ground motion can be used, but needs attention.
 
     Examples
     --------
@@ -105,7 +105,7 @@ _UNITS = {"gravity": "m/s2", "mesh": "m", "plate_thickness": "m"}
 
 @contextmanager
 def in_project_file() -> Generator[None, None, None]:
-    """Let remedies speak the language of a project's file while a model is imported for it."""
+    """Write remedies in the terms of a project's file while a model is imported for it."""
     token = _IN_FILE.set(True)
     try:
         yield
@@ -160,7 +160,7 @@ def new_name(name: str, taken: Collection[str], kind: str) -> str:
 
 
 def likely(name: object, known: Collection[str]) -> str:
-    """Return what the caller may have meant instead of `name`; empty where nothing is known."""
+    """Return the probable meaning of `name`; empty if no known name is close."""
     close = difflib.get_close_matches(str(name), list(known), n=3)
     if close:
         return "did you mean " + " or ".join(f'"{other}"' for other in close) + "?"

@@ -88,12 +88,12 @@ def _tell(
 
 @cache
 def _fields(kind: type) -> tuple[tuple[str, bytes], ...]:
-    # Of a dataclass: their names, and what `_tell` says of these.
+    # Names of a dataclass's fields, and their bytes for `_tell`.
     return tuple((each.name, f"<str>{each.name!r}</>".encode()) for each in fields(kind))
 
 
 def _content(value: Any, known: dict[int, tuple[object, bytes]]) -> bytes:
-    # Of a dataclass; of a friction law from a table also what its class says, not its fields.
+    # Fields of a dataclass; of a friction law from a table also the statement of its class.
     kind = value if isinstance(value, type) else type(value)
     pieces = [f"<{type(value).__name__}><dict>".encode()]
     for name, told in _fields(kind):

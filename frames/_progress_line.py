@@ -1,4 +1,4 @@
-"""A line on the standard error that tells how far an analysis is: terminal, notebook, log file."""
+"""Progress line of an analysis on the standard error: terminal, notebook, log file."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from time import perf_counter
 from lir_element._compile.progress import on_terminal
 
 _EVERY = 0.5, 30.0
-"""Time between two lines where one takes the place of the other, and elsewhere [s]."""
+"""Time between two lines if one replaces the other, and elsewhere [s]."""
 
 _WIDTH = 78
 _MARKS = 20
@@ -27,7 +27,7 @@ class ProgressLine:
     def __init__(self) -> None:
         self._told = 0.0
         self.is_open = False
-        """Whether something was written that did not end."""
+        """True if an unfinished line was written."""
 
     def write(self, text: str, elapsed: float, *, ends: bool) -> None:
         """Write a text, if it ends or enough time has passed since the last one."""
@@ -41,7 +41,7 @@ class ProgressLine:
 
 
 class _Share(ProgressLine):
-    # A bar of the share that is done; each run from nothing to all of it is one line.
+    # A bar of the share that is done; each run from zero to one is one line.
 
     def __init__(self) -> None:
         super().__init__()
@@ -61,7 +61,7 @@ class _Share(ProgressLine):
 
 
 def share_told(progress: object) -> Callable[[float], None] | None:
-    """Return whom to tell the share of a time history that is done."""
+    """Return the listener to the share of a time history that is done."""
     if progress is None or progress is False:
         return None
     if progress is True:

@@ -1,4 +1,4 @@
-"""Where results come from: sources that numbers depend on, versions, date, citation."""
+"""Origin of results: sources that numbers depend on, versions, date, citation."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def sources_hash() -> str:
 
 
 def provenance(dated: bool = True) -> dict[str, str]:
-    """Return what results say of their origin, as attributes."""
+    """Return the origin of results, as attributes."""
     now = datetime.datetime.now(datetime.UTC)
     date = {"date_created": f"{now:%Y-%m-%dT%H:%M:%SZ}"} if dated else {}
     return {

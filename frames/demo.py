@@ -114,7 +114,7 @@ def bearing_for(load: float) -> LIRBearing:
 
 
 def example(push: float = 2.0, storeys: int = 0) -> tuple[Frame, GroundMotion]:
-    """Return what examples are made of: a mass or storeys on a bearing, and a pulse [m/s2]."""
+    """Return a model and motion for examples: a mass or storeys on a bearing, a pulse [m/s2]."""
     pulse = GroundMotion(x=push * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
     if not storeys:
         return lumped_mass(bearing_for(2000e3), mass=204e3), pulse
@@ -314,7 +314,7 @@ def table_of(results: Mapping[str, xr.Dataset]) -> str:
 def write_results(results: Mapping[str, xr.Dataset], folder: Path) -> None:
     """Write `results.nc`, a group for each system in single precision, and `summary.csv`.
 
-    What stood in either before is replaced once all of it is written.
+    Existing files are replaced once all is written.
     """
     save_groups({group_of(name): data for name, data in results.items()}, folder / "results.nc")
     write_whole(folder / "summary.csv", csv_of(summary(results).T.rename_axis("system")))
@@ -326,7 +326,7 @@ def group_of(name: str) -> str:
 
 
 def status_of(data: xr.Dataset) -> str:
-    """Return "completed", with a mark where the check has one, or how and when a run stopped."""
+    """Return "completed", with a mark if the check has one, or reason and time of a stop."""
     if "failed_at" in data.attrs:
         return f"{data.attrs['status']} {data.attrs['failed_at']:.2f} s"
     if data.attrs["status"] != "ok":

@@ -37,14 +37,14 @@ class NonlinearBuilder(FrameBuilder):
         name : str
             New name.
         i, j : str
-            Its nodes. It sits at node j; where the nodes are apart, a rigid lever joins it to node
-            i, so that rigid motions of both nodes are free of force.
+            Its nodes. It is at node j; if the nodes are apart, a rigid lever joins it to node i, so
+            that rigid motions of both nodes are free of force.
         law : Bilinear, BoucWen, Tie, ViscousDamper, Gap or HertzGap
             Law of its force. The first two are part of the structure, carry permanent loads and
             must be elastic under them; the others are put in afterwards.
         direction : str or sequence of 3 floats
             "axial" for the line from i to j, one of "ux", "uy", "uz", "rx", "ry", "rz", or a
-            vector. The deformation is positive where node j moves along it against node i.
+            vector. The deformation is positive if node j moves along it against node i.
 
         Raises
         ------
@@ -69,7 +69,7 @@ class NonlinearBuilder(FrameBuilder):
         member: str,
         hinge: PlasticHinge | Mapping[str, PlasticHinge],
     ) -> None:
-        """Give a member plastic hinges at its ends.
+        """Add plastic hinges at the ends of a member.
 
         Parameters
         ----------
@@ -111,7 +111,7 @@ class NonlinearBuilder(FrameBuilder):
         nodes: Sequence[str],
         law: Gap | HertzGap | Mapping[str, Gap | HertzGap],
     ) -> None:
-        """Put walls around nodes of the isolated base: what is met when the clearance is used up.
+        """Add walls around nodes of the isolated base, for contact beyond the clearance.
 
         Parameters
         ----------
@@ -122,8 +122,8 @@ class NonlinearBuilder(FrameBuilder):
             Nodes that may run into a wall, as the corners of the base slab: each has walls on all
             sides that the law names.
         law : Gap, HertzGap or mapping
-            Of one node's part of a wall, on all four sides, or by side "x+", "x-", "y+", "y-":
-            where the wall stands, seen from the node.
+            Law of one node's part of a wall, on all four sides, or by side "x+", "x-", "y+", "y-":
+            the direction of the wall from the node.
 
         Raises
         ------
@@ -181,7 +181,7 @@ class Frame(NonlinearBuilder):
     """A frame that can be copied, put on other bearings, and lose parts."""
 
     def copy(self, name: str | None = None) -> Self:
-        """Return a copy that shares nothing that can be changed.
+        """Return a copy that shares nothing mutable.
 
         Parameters
         ----------
@@ -191,7 +191,7 @@ class Frame(NonlinearBuilder):
         Returns
         -------
         Frame
-            What is added to one is not added to the other.
+            The copy: later additions to one are not in the other.
         """
         found = copying.copy(self)
         if name is not None:
@@ -214,8 +214,8 @@ class Frame(NonlinearBuilder):
         Returns
         -------
         Frame
-            The same structure. Where a device has another height, the node below it is moved up
-            or down, which a node of the ground can be that carries nothing else.
+            The same structure. If a device has another height, the node below it is moved up or
+            down; this is possible for a node of the ground that carries nothing else.
 
         Raises
         ------
@@ -260,7 +260,7 @@ class Frame(NonlinearBuilder):
         Returns
         -------
         Frame
-            The copy; `weight_factor` says by what masses weigh.
+            The copy; `weight_factor` is the factor on the weight of masses.
 
         Raises
         ------
@@ -273,22 +273,22 @@ class Frame(NonlinearBuilder):
         return found
 
     def remove(self, kind: str, name: str) -> None:
-        """Take a part out of the frame.
+        """Remove a part from the frame.
 
         Parameters
         ----------
         kind : str
             "member", "spring", "link", "hinges", "bearing", "diaphragm", "level", "mass", "load" or
-            "floor load": a mass or a load has the name of its node, and goes in all load cases;
-            hinges have that of their member. A member's hinges and own loads go with it, a floor
-            load that rests on it must go as well.
+            "floor load". A mass or a load has the name of its node, and is removed from all load
+            cases; hinges have the name of their member. A member's hinges and own loads are removed
+            with it; a floor load on it must be removed as well.
         name : str
             Its name.
 
         Raises
         ------
         ModelError
-            If there is no such part.
+            If there is no part of that name.
         """
         groups: dict[str, dict[str, Any]] = {
             "member": self._members,

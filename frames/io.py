@@ -39,39 +39,39 @@ def read_opensees(
     force_unit: float = 1.0,
     name: str = "OpenSees model",
 ) -> Frame:
-    """Take over the current model of OpenSeesPy, linear as it stands, and put it on bearings.
+    """Import OpenSeesPy's current model, linear at its present state, and put it on bearings.
 
     Parameters
     ----------
     base_nodes : sequence of int
-        Tags of the nodes that stand on a bearing. Fixed ones are released: their translations
-        and the rotation about the vertical.
+        Tags of the nodes above bearings. Fixed ones are released: their translations and the
+        rotation about the vertical.
     bearing : LIRBearing or mapping
         One bearing for all base nodes, or one by tag.
     vertical : {None, "z", "y"}
         Axis of the OpenSees model that points up: None is z in three dimensions and y in
         the plane. Results are in the axes of docs/conventions.md, z up.
     base_rotations : {"kept", "free", "fixed"}
-        Rotations of the base nodes about horizontal axes: held where the model holds them (as
-        stiff base beams would), free (of a model that has base beams), or held.
+        Rotations of the base nodes about horizontal axes: held if the model holds them (as stiff
+        base beams would), free (of a model that has base beams), or held.
     base_diaphragm : bool
-        Whether base nodes at one elevation move in plan as one rigid body, as on a base slab.
+        True if base nodes at one elevation move in plan as one rigid body, as on a base slab.
     gravity : float, optional
-        Acceleration of gravity [m/s2] for a model without loads: its masses then weigh. None:
-        its loads, as they stand, are what the bearings carry.
+        Acceleration of gravity [m/s2] for a model without loads: its masses then have weight. None:
+        the bearings carry its present loads.
     damping : bool
-        Whether to take over the damping of the model (Rayleigh, modal, dashpots).
+        True to import the damping of the model (Rayleigh, modal, dashpots).
     levels : mapping, optional
         Tags of nodes by name of level, for storey drifts. None: "level-0" at the base, and
         one at each elevation with mass.
     other_supports : collection of int
         Tags of supports that carry elements and shall stay as they are.
     accept_nonlinear : bool
-        Whether to freeze the present stiffness of elements that have left their initial one,
-        and of gaps, bars that only pull or push, and dashpots that are not linear.
+        True to freeze the present stiffness of elements that have left their initial one, and of
+        gaps, bars that only pull or push, and nonlinear dashpots.
     vertical_mass : {None, "horizontal"} or mapping
-        Vertical mass besides that of the model: "horizontal" lets masses act along the
-        vertical as along x, a mapping gives kg by tag. It adds no weight to a loaded model.
+        Vertical mass besides that of the model: "horizontal" lets masses act along the vertical as
+        along x, a mapping gives kg by tag. It adds no weight to a loaded model.
     length_unit, force_unit : float
         Units of the OpenSees model [m], [N]: 1e-3 and 1e3 for mm and kN. Time is in seconds.
     name : str
@@ -86,23 +86,23 @@ def read_opensees(
     Raises
     ------
     ModelError
-        If the model cannot be imported; the message says what to change.
+        If the model cannot be imported; the message has the remedy.
     ImportError
         If openseespy is not installed.
 
     Warns
     -----
     ModelWarning
-        On what should be known: elements that are or may be nonlinear with the share of the
-        strain energy that they hold, damping of the isolation.
+        If elements are or may be nonlinear, with their share of the strain energy, or if the
+        isolation is damped.
 
     Notes
     -----
-    The OpenSees model stays as it is, time and recorders too, but its analysis objects are
-    wiped (`wipeAnalysis`), and copies of its nonlinear uniaxial materials are added under tags
-    from 2,147,000,000 on to be tried; no element has them. Displacements count from its present
-    state. What OpenSees does not show cannot be seen: damping by `modalDampingQ` and by
-    elements' option ``-damp``. See docs/choices_opensees.md.
+    The OpenSees model stays as it is, time and recorders too, but its analysis objects are wiped
+    (`wipeAnalysis`). Copies of its nonlinear uniaxial materials are added for a trial, under tags
+    from 2,147,000,000 on; no element has them. Displacements count from its present state. Two
+    kinds of damping are invisible: `modalDampingQ` and the option ``-damp`` of elements. See
+    docs/choices_opensees.md.
     """
     from frames.opensees.frame import imported  # needs the optional openseespy
     from frames.opensees.structure import Options
@@ -139,7 +139,7 @@ def read_sap2000(
     decimal: Literal[".", ","] = ".",
     name: str | None = None,
 ) -> Frame:
-    """Read a SAP2000 model, and put it on bearings; docs/exchange.md says what is read and how.
+    """Read a SAP2000 model, and put it on bearings (docs/exchange.md has the details).
 
     Parameters
     ----------
@@ -157,14 +157,14 @@ def read_sap2000(
     mass : mapping, optional
         Shares of load patterns that are mass, instead of the file's mass source.
     allow : collection of str
-        What may be left out although it changes the answer, by the key in the refusal.
+        Objects that may be left out although they change the answer, by the key in the refusal.
     mesh : float
         Longest side of the shell elements of walls and slabs [m].
     base_rotations : {"kept", "free", "fixed"}
         Rotations of joints on bearings about horizontal axes: as the supports hold them, free,
         or held.
     base_diaphragm : bool
-        Whether joints on bearings at one elevation move in plan as one rigid body.
+        True if joints on bearings at one elevation move in plan as one rigid body.
     decimal : {".", ","}
         Decimal sign of a text file.
     name : str, optional
@@ -173,14 +173,14 @@ def read_sap2000(
     Returns
     -------
     Frame
-        Nodes and members have the names of joints and frame objects; `imported` says what was
-        read, what as something else, and what was left out.
+        Nodes and members have the names of joints and frame objects; `imported` lists objects read,
+        read as something else, and left out.
 
     Raises
     ------
     ModelError
-        If the file cannot be used, or holds what would change the answer if left out: the
-        message has line, table and remedy.
+        If the file cannot be used, or an omission would change the answer: the message has line,
+        table and remedy.
     ImportError
         If openseespy, which has the shells, or openpyxl, which reads workbooks, is needed and
         not installed.
@@ -188,8 +188,8 @@ def read_sap2000(
     Warns
     -----
     ModelWarning
-        On what was probably not meant: words that are not known, mass without weight, supports
-        that do not let each bearing carry its column, a level on the bearings without mass.
+        If the model has probable mistakes: unknown words, mass without weight, supports that do not
+        let each bearing carry its column, a level on the bearings without mass.
     """
     from frames.exchange.import_report import Options
     from frames.exchange.to_frame import imported
@@ -216,7 +216,7 @@ def read_etabs(
     library: str | Path | Sequence[str | Path] = (),
     name: str | None = None,
 ) -> Frame:
-    """Read an ETABS model, and put it on bearings; docs/exchange.md says what is read and how.
+    """Read an ETABS model, and put it on bearings (docs/exchange.md has the details).
 
     Parameters
     ----------
@@ -235,21 +235,21 @@ def read_etabs(
     Returns
     -------
     Frame
-        Nodes are points at stories, members lines at stories, "C1-Story2"; levels are the
-        stories. `imported` says what was read, what as something else, what was left out.
+        Nodes are points at stories, members lines at stories, "C1-Story2"; levels are the stories.
+        `imported` lists objects read, read as something else, and left out.
 
     Raises
     ------
     ModelError
-        If the file cannot be used, or holds what would change the answer if left out: the
-        message has line, section and remedy.
+        If the file cannot be used, or an omission would change the answer: the message has line,
+        section and remedy.
     ImportError
         If openseespy, which has the shells, is needed and not installed.
 
     Warns
     -----
     ModelWarning
-        As `read_sap2000` does.
+        As for `read_sap2000`.
     """
     from frames.exchange.import_report import Options
     from frames.exchange.to_frame import imported
@@ -286,8 +286,8 @@ def write_sap2000(
     path : str or Path
         The .s2k file.
     displacement : float, optional
-        Of the equivalent-linear analysis [m]: bearings become friction isolator links with
-        their effective stiffness and damping at it. Needed where there are bearings.
+        Displacement of the equivalent-linear analysis [m]: bearings become friction isolator links
+        with their effective stiffness and damping at it. Needed if there are bearings.
     units : str
         Units of the file.
 
@@ -334,18 +334,18 @@ def write_etabs(
     Returns
     -------
     dict of str to str
-        What nodes ("12-Story2") and members ("C1-Story2") are called in the file.
+        Names of nodes ("12-Story2") and members ("C1-Story2") in the file.
 
     Raises
     ------
     ModelError
-        As in `write_sap2000`; and if two nodes stand at one place, which ETABS merges.
+        As in `write_sap2000`; and if two nodes are at one place, which ETABS merges.
 
     Notes
     -----
-    Stories are the frame's levels or diaphragms, the lowest node the base; other nodes are
-    points below the next story. Springs to a held node at one place are springs of points.
-    docs/exchange.md says what of the file no file of ETABS confirms.
+    Stories are the frame's levels or diaphragms, the lowest node the base; other nodes are points
+    below the next story. Springs to a held node at one place are springs of points.
+    docs/exchange.md lists the features of the file that no file of ETABS confirms.
     """
     from frames.exchange.from_frame import building_of
     from frames.exchange.write_etabs import EtabsWriter
@@ -360,14 +360,14 @@ MODEL_FILES = {
     "etabs": (write_etabs, (".e2k", ".$et")),
     "sap2000": (write_sap2000, (".s2k", ".$2k", *BOOKS)),
 }
-"""Programs: what writes their models, and endings of the files, the one that is written first."""
+"""Programs: the writer of their models, and endings of the files, the written one first."""
 
 
 class Frame(model.Frame):
-    """A structure on bearings, built one verb at a time; `frames.assembly` reads it.
+    """A structure on bearings, built by one call at a time; `frames.assembly` reads it.
 
-    Units are SI, axes are global and right-handed with z up. Every call checks what it is given
-    and leaves the frame as it was when it refuses.
+    Units are SI, axes are global and right-handed with z up. Every call checks its input and leaves
+    the frame unchanged when it refuses.
 
     Parameters
     ----------
@@ -405,7 +405,7 @@ class Frame(model.Frame):
         Parameters
         ----------
         data : xarray.Dataset or mapping
-            Of `time_history` with this frame; or several by name of the output case.
+            Result of `time_history` with this frame; or several by name of the output case.
         units : str
             Units of force and length: "KN, m", "N, m", "N, mm", "Kip, in" or "Kip, ft".
         stations : int
@@ -416,8 +416,8 @@ class Frame(model.Frame):
         dict of str to pandas.DataFrame
             "Joint Displacements", "Joint Reactions", "Base Reactions", "Element Forces - Frames"
             and "Story Drifts", as far as the model has them; `write_tables` writes them as a
-            workbook or CSV. A row "Max" and a row "Min" over the recorded steps of each case,
-            whose values are not of one instant; stations along members, signs by axes 1, 2 and 3
+            workbook or CSV. A row "Max" and a row "Min" over the recorded steps of each case, whose
+            values are not of one instant; stations along members, signs by axes 1, 2 and 3
             (docs/exchange.md).
 
         Raises
@@ -425,7 +425,7 @@ class Frame(model.Frame):
         ModelError
             If the frame is not the one that was analysed, or the units are not known.
         ValueError
-            If the recording does not have what is needed.
+            If the recording lacks a needed variable.
 
         Examples
         --------
@@ -442,7 +442,7 @@ class Frame(model.Frame):
         return program_tables(self, data, units=units, stations=stations)
 
     def check(self, motion: GroundMotion | None = None) -> ModelCheck:
-        """Add the model up, and say what looks as if given in other units or put in a wrong place.
+        """Sum up the model, and list values in probably wrong units or places.
 
         Parameters
         ----------
@@ -453,12 +453,12 @@ class Frame(model.Frame):
         -------
         ModelCheck
             Mass, weight and loads; periods on a fixed base and on the bearings; axial force,
-            pressure and settlement of each bearing; what is strange. It prints as a table.
+            pressure and settlement of each bearing; unusual values. It prints as a table.
 
         Raises
         ------
         ModelError
-            If the model cannot be assembled. Where only the equilibrium fails, the table says so.
+            If the model cannot be assembled. If only the equilibrium fails, the table says so.
         """
         from frames.statics.model_check import check_model  # the analysis reads the model
 
@@ -466,5 +466,5 @@ class Frame(model.Frame):
 
     @property
     def imported(self) -> ImportReport | None:
-        """What became of the file that the frame was read from; None of one that was built."""
+        """Account of the frame's import from a file; None if it was built."""
         return cast("ImportReport | None", self._imported)

@@ -1,8 +1,8 @@
 """Compile the kernels of usual analyses ahead of their first use: ``python -m frames.precompile``.
 
-For images of containers, clusters and wheels: the first analysis then starts at once. What is
-compiled is kept where every start looks for it (`LIR_CACHE_DIR`). Two processes share the work
-unless ``--jobs 1`` asks for one.
+For images of containers, clusters and wheels: the first analysis then starts at once. Compiled
+kernels are kept in the folder that every start searches (`LIR_CACHE_DIR`). Two processes share the
+work unless ``--jobs 1`` is set.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ LAYERS = (
         "time history, rigid_body",
     ),
 )
-"""The same in the order that processes take them: what a layer's kernels call is compiled before.
+"""Layers in the order of compilation: kernels that a layer calls are compiled before it.
 
 Within a layer two processes hardly meet in the same kernel; more than two would do so.
 """
@@ -129,7 +129,7 @@ def _hush() -> None:
 
 
 def _failure(running: dict[Future[float], str]) -> RuntimeError:
-    # What to say of a layer of which one analysis failed, or whose processes ended early.
+    # Message on a layer of which one analysis failed, or whose processes ended early.
     for each in running:
         each.cancel()
     failed = {name: e.exception() for e, name in running.items() if e.done() and not e.cancelled()}
@@ -159,7 +159,7 @@ def _jobs() -> int:
 
 
 def main() -> None:
-    """Compile, and print what each kind of analysis took."""
+    """Compile, and print the duration of each kind of analysis."""
     for kind, took in _compiled(_jobs()):
         sys.stdout.write(f"{kind:32}{took:8.1f} s\n")
         sys.stdout.flush()

@@ -1,11 +1,11 @@
 """Change of basis: bearing degrees of freedom kept, the linear rest as fixed-interface modes.
 
-With the bearings' degrees of freedom b held, the rest of the structure is linear. Writing its
-motion as the quasi-static one that follows b plus all modes with b fixed (Hurty 1965; Craig and
-Bampton 1968), ``q_r = Psi q_b + Phi eta``, makes stiffness and damping of the rest diagonal: a
-time step of any size costs a small dense solve in b and a division a mode. All modes are kept, so
-this is the full model in other coordinates, not an approximation. Degrees of freedom without mass
-follow statically and are eliminated first, which is exact too; so do modes with next to no mass
+With the bearings' degrees of freedom b held, the rest of the structure is linear. Its motion is the
+quasi-static one that follows b plus all modes with b fixed (Hurty 1965; Craig and Bampton 1968),
+``q_r = Psi q_b + Phi eta``. This makes stiffness and damping of the rest diagonal: a time step of
+any size costs a small dense solve in b and a division a mode. All modes are kept, so this is the
+full model in other coordinates, not an approximation. Degrees of freedom without mass follow
+statically and are eliminated first, which is exact too. So are modes with almost no mass
 (frames/assembly/natural_modes.py), whose periods are below 1e-6 of the longest.
 """
 
@@ -98,7 +98,7 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
 def _static_following(
     system: System, stiffness: FloatArray, massless: IntArray, kept: IntArray
 ) -> tuple[FloatArray, FloatArray]:
-    # How massless DOFs follow the kept ones, and where their own loads put them.
+    # Displacement of massless DOFs by the kept ones, and by their own loads.
     if not len(massless):
         return np.zeros((0, len(kept))), np.zeros(0)
     block = stiffness[np.ix_(massless, massless)]

@@ -28,7 +28,7 @@ DENSE_LIMIT = 300
 """Up to this number of DOFs the free motions are sought with dense matrices."""
 
 MOTIONS = 12
-"""How many free motions are sought at most."""
+"""Largest number of free motions to find."""
 
 NO_STIFFNESS = 1e-13
 """Eigenvalue of the scaled stiffness (unit diagonal) below which a motion is free [-]."""
@@ -37,7 +37,7 @@ _PLAIN = 1e-9  # eigenvalue of the same, beyond round-off: if all are larger, no
 _SHIFT = 1e-8  # of the scaled stiffness, which makes that of a mechanism regular
 
 NAMED = 4
-"""How many motions, and how many DOFs of each, a message lists."""
+"""Number of motions, and of DOFs of each, in a message."""
 
 
 def check_connections(frame: FrameData) -> None:
@@ -88,7 +88,7 @@ def check_connections(frame: FrameData) -> None:
 
 
 def check_mass(system: System) -> None:
-    """Refuse a system without free DOFs, or without mass where it can move."""
+    """Refuse a system without free DOFs, or without mass in a free motion."""
     if not system.dof_labels:
         message = "every degree of freedom is fixed: release what should move"
         raise ModelError(message)

@@ -30,7 +30,7 @@ IN_PLANE = (0, 1, 5)
 """Places of ux, uy and rz, the displacements a diaphragm ties, among a node's six."""
 
 OUT_OF_PLANE = ("uy", "rx", "rz")
-"""Displacements held where the second horizontal direction is left out."""
+"""Displacements held if the second horizontal direction is left out."""
 
 
 def free_dofs(

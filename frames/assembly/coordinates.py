@@ -1,9 +1,9 @@
 """A frame in bearing degrees of freedom and fixed-interface modes, as `build_basis` makes it.
 
 Damping may be given as a matrix. It then couples the modes with each other and with the bearings'
-displacements, unless it is proportional to the present stiffness: then it is a number a mode. Where
-it does not follow the stiffness, directions without mass do not follow the rest statically: they
-lag. Their deviation from the static shape then joins the modes, as coordinates without mass.
+displacements, unless it is proportional to the present stiffness: then it is a number a mode. If it
+is not proportional, directions without mass do not follow the rest statically: they lag. Their
+deviation from the static shape then joins the modes, as coordinates without mass.
 """
 
 from __future__ import annotations
@@ -30,16 +30,16 @@ class Basis:
     bearing_dofs: IntArray  # (n_b,) places of b among the free displacements q
     expand_b: FloatArray  # (n_free, n_b): q = expand_b @ b + expand_e @ eta + offset
     expand_e: FloatArray  # (n_free, n_e)
-    offset: FloatArray  # (n_free,) static displacement of what has no mass under its own loads
+    offset: FloatArray  # (n_free,) static displacement of massless DOFs under their own loads
     still: FloatArray  # (n_free, n_still) its shapes, of stiffness 1 each; none in a linear frame
     mass_b: FloatArray  # (n_b, n_b)
     mass_be: FloatArray  # (n_b, n_e)
-    mass_e: FloatArray  # (n_e,) 1 of the modes, 0 of what lags behind (`with_matrix_damping`)
+    mass_e: FloatArray  # (n_e,) 1 for modes, 0 for lagging coordinates (`with_matrix_damping`)
     stiffness_b: FloatArray  # (n_b, n_b) without bearings, geometric part included
     damping_b: FloatArray  # (n_b, n_b) of the base's own deformation
     omega2: FloatArray  # (n_e,) squared circular frequencies of the modes
     damping_e: FloatArray  # (n_e,) 2 zeta omega
-    damping_be: FloatArray  # (n_b, n_e) damping given as a matrix; of no size where there is none
+    damping_be: FloatArray  # (n_b, n_e) damping given as a matrix; of size zero if there is none
     damping_ee: FloatArray  # (n_e, n_e)
     load_b: FloatArray  # (n_b,) permanent loads
     load_e: FloatArray  # (n_e,)
@@ -63,7 +63,7 @@ class Basis:
     @cached_property
     def shaken(self) -> FloatArray:
         """Accelerations of b and eta at rest under a unit of ground acceleration, (n, 3) [-]."""
-        heavy = self.mass_e > 0.0  # of the modes 1; what lags without mass is not accelerated
+        heavy = self.mass_e > 0.0  # 1 for modes; lagging coordinates have no inertia
         between = self.mass_be[:, heavy]
         left = self.mass_b - between @ between.T
         alone = self.inertia_b - between @ self.inertia_e[heavy]
@@ -73,7 +73,7 @@ class Basis:
         return np.vstack([of_b, of_e])
 
     def shift(self, loads: FloatArray) -> FloatArray:
-        """Return how loads (n_free, ...) displace what has no mass while b and eta rest."""
+        """Return the displacements of massless DOFs under loads (n_free, ...), with b and eta 0."""
         return np.asarray(self.still @ (self.still.T @ loads))
 
     def __repr__(self) -> str:
@@ -125,7 +125,7 @@ def _is_nothing(
     columns: FloatArray,
     damping: FloatArray | SparseMatrix,
 ) -> bool:
-    # Whether what damping couples of these shapes is round-off.
+    # True if the coupling of these shapes by damping is round-off.
     bound = np.sqrt(np.outer(_gross(rows, damping), _gross(columns, damping)))
     return bool((np.abs(coupling) <= _UNCOUPLED * bound).all())
 
@@ -135,7 +135,7 @@ def _of(left: FloatArray, matrix: FloatArray | SparseMatrix, right: FloatArray) 
 
 
 def _gross(shapes: FloatArray, damping: FloatArray | SparseMatrix) -> FloatArray:
-    # The work of each shape with itself, all terms counted positive: no round-off where it is zero.
+    # The work of each shape with itself, all terms counted positive: no round-off if it is zero.
     size = np.abs(shapes)
     return np.asarray(np.sum(size * np.asarray(abs(damping) @ size), axis=0))
 

@@ -1,8 +1,8 @@
 """Masses and permanent loads at the nodes of a frame, and loads of spans as forces of clamped ends.
 
-By Betti's theorem the force of a clamp is the work of the load on the deflection that a unit
-displacement of this end makes, negative: with the shape functions of the elastic stiffness, which
-are exact for end displacements, it is exact, with shear deformation and without.
+By Betti's theorem the force of a clamp is the work of the load on the deflection under a unit
+displacement of this end, negative. With the shape functions of the elastic stiffness, which are
+exact for end displacements, it is exact, with shear deformation and without.
 
 Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sec. 5.6 [Prz68], with the shape
 functions of a beam with shear deformation as in Friedman & Kosmatka, An improved two-node

@@ -1,10 +1,10 @@
 """Natural modes of matrices whose masses span many orders of magnitude, none among them.
 
-The usual way, to divide by the mass, loses all digits where rotations have masses of 1e-10: the
-largest squared frequency sets the round-off of all. Here the problem is turned round,
-``M y = mu K y`` with ``mu = 1 / omega^2``: what has next to no mass has next to no mu, and the long
-periods, which matter, are the accurate ones. Modes are taken from the longest on, a million in mu
-at a time, each group made orthogonal to those before: so all keep ten digits.
+The usual way, to divide by the mass, loses all digits if rotations have masses of 1e-10: the
+largest squared frequency sets the round-off of all. Here the problem is inverted, ``M y = mu K y``
+with ``mu = 1 / omega^2``: DOFs of almost no mass have almost no mu, and the long periods, which
+matter, are the accurate ones. Modes are computed from the longest on, a million in mu at a time,
+each group made orthogonal to those before: so all keep ten digits.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class NaturalModes(NamedTuple):
     shapes: FloatArray
     """Shapes (n, n_modes) of modal mass 1."""
     static: FloatArray
-    """Shapes (n, n_static) of modal stiffness 1 that have no mass that could be told."""
+    """Shapes (n, n_static) of modal stiffness 1 whose mass is below the round-off."""
 
 
 def natural_modes(k: FloatArray, m: FloatArray, count: int | None = None) -> NaturalModes:
@@ -81,7 +81,7 @@ def natural_modes(k: FloatArray, m: FloatArray, count: int | None = None) -> Nat
 def _rest(
     inert: FloatArray, mu: FloatArray, done: FloatArray, rest: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    # The modes in the span of `rest`, without what round-off left there of those that are done.
+    # The modes in the span of `rest`, without the round-off of earlier ones.
     if not rest.shape[1]:
         return np.zeros(0), rest
     rest = rest - done @ ((done.T @ (inert @ rest)) / mu[:, None])
@@ -107,13 +107,13 @@ def weakest(k: FloatArray) -> FloatArray:
 
 
 def _scale(k: FloatArray) -> FloatArray:
-    # What gives the diagonal the size of 1.
+    # Scale that gives the diagonal the size of 1.
     diagonal = np.abs(np.diag(k))
     return 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
 
 
 def symmetric(matrix: FloatArray) -> FloatArray:
-    """Return a matrix (n, n) without what round-off made unsymmetric."""
+    """Return a matrix (n, n) made symmetric against round-off."""
     return np.ascontiguousarray(0.5 * (matrix + matrix.T))
 
 
@@ -124,8 +124,8 @@ _BEYOND = 1e-6  # of a squared frequency, above which modes are counted
 def few_modes(k: SparseMatrix, m: SparseMatrix, count: int) -> NaturalModes:
     """Find the first natural modes of a structure by Lanczos' method (ARPACK).
 
-    How many squared frequencies there are below the last one found is counted (Sylvester's law of
-    inertia); where one was missed, all modes are found by `natural_modes`.
+    The number of squared frequencies below the last one found is counted (Sylvester's law of
+    inertia); if one was missed, `natural_modes` finds all modes.
 
     Shapes: k (n, n), m (n, n).
     """
@@ -157,7 +157,7 @@ def _found_below(omega2: FloatArray, count: int) -> int:
 
 
 def _count_below(k: SparseMatrix, m: SparseMatrix, value: float) -> int:
-    # Modes with squared frequencies below a value; -1 where the factors do not tell.
+    # Modes with squared frequencies below a value; -1 if the factors do not show them.
     try:
         factors = Factors(sparse.csr_array(k - value * m))
     except RuntimeError:

@@ -91,8 +91,8 @@ def with_axial_forces(
 ) -> NonlinearParts:
     """Return the parts with the geometric stiffness of the hinged members.
 
-    A hinge turns the member's end against its node, so that the geometric stiffness acts on what
-    is left: a member that turns in hinges at both ends stays straight.
+    A hinge rotates the member's end against its node, so that the geometric stiffness acts on the
+    rest: a member with rotating hinges at both ends stays straight.
 
     Shapes: axial_forces (n_members,).
     """

@@ -1,11 +1,11 @@
 """A reduced basis: the bearings' degrees of freedom kept, the linear rest as few Ritz vectors.
 
-As `build_basis`, but instead of all fixed-base modes it takes load-dependent vectors
-(Wilson, Yuan and Dickens 1982): the static displacements under the inertia of rigid motions, and of
-what each bearing moves along its axis (without these the axial forces are off by a fifth), then
-those under the inertia of the vectors before, and so on. So they come in the order in which they
-count; what is left out follows permanent loads and nonlinear parts statically.
-The structure's own matrices stay sparse, so that a large one is set up in seconds.
+Instead of all fixed-base modes of `build_basis` it uses load-dependent vectors (Wilson, Yuan and
+Dickens 1982): the static displacements under the inertia of rigid motions, and under that of each
+bearing's axial motion (without these the axial forces are off by a fifth), then those under the
+inertia of the vectors before, and so on. So they come in the order of their importance; the rest
+follows permanent loads and nonlinear parts statically. The structure's own matrices stay sparse, so
+that a large one is set up in seconds.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ LARGE = 4000
 VECTORS, TURNS = 150, 3
 """Vectors, and turns of them, that stand at least for all modes of a large structure."""
 
-_NEW = 1e-6  # of a vector's size: what must be left of it beside those before, to be one more
+_NEW = 1e-6  # of a vector's size: least remainder beside those before, to count as a new one
 
 
 def basis_of(system: System, geometric: SparseMatrix, damping: Damping | None) -> Basis:
@@ -111,10 +111,9 @@ class RitzSpace:
         return np.asarray(own + self._mass @ self._follow[:, lifted])
 
     def grow(self) -> int:
-        """Make a turn of further vectors, if there are any.
+        """Add a cycle of further vectors, if there are any.
 
-        A turn takes three generations of what rigid motions excite, and one of what the bearings
-        excite along their axes.
+        A cycle has three generations from rigid motions, and one from the bearings' axial motions.
         """
         for _ in range(RIGID_A_TURN):
             self._rigid = self._next(self._rigid)
@@ -122,9 +121,9 @@ class RitzSpace:
         return self._vectors.shape[1]
 
     def _next(self, loads: FloatArray) -> FloatArray:
-        # Take up the vectors that answer some loads; return the inertia of those that are new.
-        # Vectors have modal mass 1 and are orthogonal, made so twice for the digits; each is the
-        # answer to a load on what has mass, so that the rest follows without round-off.
+        # Add the vectors that answer some loads; return the inertia of the new ones. Vectors have
+        # modal mass 1 and are orthogonal, made so twice for the digits. Each is the answer to a
+        # load on masses, so that the rest follows without round-off.
         vectors = self._solve(loads)
         size = np.sqrt(np.maximum(np.sum(vectors * np.asarray(self._mass @ vectors), axis=0), 0.0))
         scale = 1.0 / np.where(size > 0.0, size, 1.0)
@@ -191,7 +190,7 @@ class RitzSpace:
         return omega2, turned
 
     def _still(self, phi: FloatArray, omega2: FloatArray) -> FloatArray:
-        # Shapes of stiffness 1 of how what is left out follows the nonlinear parts.
+        # Shapes of stiffness 1 with which the omitted part follows the nonlinear parts.
         rows, n_free = self._system.part_rows, self._stiffness.shape[0]
         if not rows.shape[0] or not len(self._rest):
             return np.zeros((n_free, 0))
@@ -210,7 +209,7 @@ class RitzSpace:
 def _factors(
     inner: SparseMatrix, system: System, geometric: SparseMatrix, damping: Damping | None
 ) -> Factors | None:
-    # The stiffness over held bearings, factorised; None where nothing is left.
+    # The stiffness over held bearings, factorised; None if nothing is left.
     if not inner.shape[0]:
         return None
     factors = positive_factors(inner)
@@ -226,8 +225,8 @@ def _factors(
 
 
 def _orthogonal(inertia: FloatArray) -> FloatArray:
-    # How vectors of about mass 1 mix to orthogonal ones of mass 1, the longest first; what others
-    # had in them already is left out.
+    # Combination of vectors of about mass 1 to orthogonal ones of mass 1, the longest first;
+    # components in the span of earlier ones are left out.
     masses, turned = linalg.eigh(symmetric(inertia))
     kept = np.flatnonzero(masses > _NEW**2)[::-1]
     return np.asarray(turned[:, kept] / np.sqrt(masses[kept]))

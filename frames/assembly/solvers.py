@@ -1,4 +1,4 @@
-"""Solves with symmetric matrices: dense ones, doubted where round-off spoils them, and sparse ones.
+"""Solves with symmetric matrices: dense ones, with a check for round-off, and sparse ones.
 
 Sparse ones are factorised once, in a few hundredths of the time of a general solver.
 """
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def solve_positive(
     matrix: FloatArray, right: FloatArray, what: str, labels: Sequence[str]
 ) -> FloatArray:
-    """Solve for right-hand sides, in scaled unknowns where round-off would show otherwise.
+    """Solve for right-hand sides, in scaled unknowns if round-off would show otherwise.
 
     Shapes: matrix (n, n), right (n, m), labels (n,), result (n, m).
     """
@@ -73,7 +73,7 @@ class Factors:
 
     @property
     def is_positive(self) -> bool:
-        """Whether the matrix is positive definite: by the signs of its pivots (Sylvester)."""
+        """True if the matrix is positive definite: by the signs of its pivots (Sylvester)."""
         pivots = self._pivots
         return pivots is not None and bool((pivots > 0.0).all())
 
@@ -85,7 +85,7 @@ class Factors:
 
     @property
     def _pivots(self) -> FloatArray | None:
-        # None where rows were exchanged: then they are not those of the symmetric matrix.
+        # None if rows were exchanged: then they are not those of the symmetric matrix.
         same = bool((self._factors.perm_r == self._factors.perm_c).all())
         return np.asarray(self._factors.U.diagonal()) if same else None
 

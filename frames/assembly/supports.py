@@ -1,4 +1,4 @@
-"""Where permanent loads go: what the bearings carry, and what supports of the structure take."""
+"""Path of permanent loads: forces of the bearings, and of supports of the structure."""
 
 from __future__ import annotations
 
@@ -19,22 +19,23 @@ UNSAID = 0.01
 """Part of the weight that supports above the bearings may take without a word [-]."""
 
 NAMED = 4
-"""How many supports a sentence names."""
+"""Number of supports in a sentence."""
 
 HELD = 8.0
-"""Stiffness in plan beside the bearings, over that of their pendulums, which is doubted: a third
-of the isolated period [-]."""
+"""Stiffness in plan beside the bearings, over that of their pendulums, above which there is a
+doubt: a third of the isolated period [-].
+"""
 
 _RIGID = 1e-6  # residual of a translation that the model cannot make
 
 
 class LoadPath(NamedTuple):
-    """How the weight of what stands on bearings reaches the ground."""
+    """Path of the weight above the bearings to the ground."""
 
     weight: float  # permanent vertical load above the bearings [N]
-    bearings: float  # what the bearings carry of it [N]
+    bearings: float  # part of it in the bearings [N]
     supports: tuple[tuple[str, float], ...]
-    """Nodes above the bearings whose uz is held, and what each takes [N], largest first."""
+    """Nodes above the bearings whose uz is held, and the load of each [N], largest first."""
 
     @property
     def lost(self) -> float:
@@ -42,7 +43,7 @@ class LoadPath(NamedTuple):
         return sum(force for _, force in self.supports)
 
     def sentence(self) -> str:
-        """Return what the supports take, and what to do; empty where it is next to nothing."""
+        """Return the loads of the supports and the remedy; empty if they are negligible."""
         taken = [pair for pair in self.supports if abs(pair[1]) > UNSAID * self.weight]
         if not taken:
             return ""
@@ -60,7 +61,7 @@ class LoadPath(NamedTuple):
 def load_path(
     system: System, geometric: SparseMatrix, displacement: FloatArray, axial_forces: FloatArray
 ) -> LoadPath:
-    """Compare what the bearings carry with the weight above them.
+    """Compare the load of the bearings with the weight above them.
 
     Shapes: geometric (6 n_nodes, 6 n_nodes), displacement (n_free,), axial_forces (n_bearings,).
     """
@@ -81,10 +82,10 @@ def load_path(
 def held_sideways(
     system: System, geometric: SparseMatrix, basis: Basis, axial_forces: FloatArray
 ) -> list[str]:
-    """Return what holds the structure in plan beside the bearings, a sentence for a direction.
+    """Return restraints of the structure in plan besides the bearings, a sentence a direction.
 
-    The tops of all bearings move by the same; the rest follows statically. What resists that are
-    springs and supports: a structure on bearings alone resists nothing. Elements that yield or
+    The tops of all bearings move equally; the rest follows statically. The resistance to that comes
+    from springs and supports: a structure on bearings alone resists nothing. Elements that yield or
     push are left out.
 
     Shapes: geometric (6 n_nodes, 6 n_nodes), axial_forces (n_bearings,).

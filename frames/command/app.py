@@ -1,6 +1,7 @@
 """The command ``lir``: new, check, design, run, report, view, compare, bench, campaign, schema.
 
-What a command needs is imported in it: ``lir --help`` and errors of the command line wait for none.
+Each command imports its modules itself: ``lir --help`` and errors of the command line wait for
+none.
 """
 
 from __future__ import annotations
@@ -330,7 +331,7 @@ def _checks(title: str, checks: Checks) -> None:
 
 
 def _provisions(states: Iterable[ProvisionState]) -> None:
-    # Those that are not checked with their reasons, a line each; those of the engineer in one.
+    # Provisions that are not checked with their reasons, a line each; the engineer's in one.
     from frames.design.codes.code_values import RUN, left_to_the_engineer, not_checked
 
     every = tuple(states)

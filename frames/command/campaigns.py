@@ -1,6 +1,6 @@
-"""The commands of campaigns: run one from its file, and see how far one is.
+"""The commands of campaigns: run one from its file, and show its progress.
 
-What they need is imported in them: the other commands start without it.
+Each imports its modules itself: the other commands start without them.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def campaign(
             _search(given, file, store, workers)
             return
         found = read_campaign(given, store=store)
-        comparison_in(given)  # whether there is what it compares
+        comparison_in(given)  # raises if its comparison is missing
         loss_in(given)
         sources.require_unchanged()
         refuse_links(found.store.path)
@@ -73,7 +73,7 @@ def _search(given: CampaignFile, file: Path, store: Path | None, workers: int | 
 
 
 def _run(found: Campaign, workers: int | None, reuse: list[Path]) -> None:
-    # Leaves with the code of what stopped it.
+    # Exits with the code of the error that stopped it.
     try:
         found.run(workers=workers, progress=True, reuse=reuse)
     except KeyboardInterrupt as cause:

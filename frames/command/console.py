@@ -1,6 +1,6 @@
-"""How the command speaks: lines as they are, errors with their exit code, each warning once.
+"""Output of the command: lines as they are, errors with their exit code, each warning once.
 
-The commands import what they need when they run: `lir --help` starts without the rest.
+The commands import their modules when they run: `lir --help` starts without the rest.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ out, err = Console(), Console(stderr=True)
 
 @contextmanager
 def exit_codes() -> Generator[None, None, None]:
-    """Tell errors as lines and leave with their exit code; each warning is a line, once."""
+    """Print errors as lines and exit with their code; print each warning once."""
     from frames._errors import ModelError, MotionError, without_numbers
     from frames.design._errors import CheckError, ProjectError
     from frames.design.project.source_files import ANYWHERE, TOLD
@@ -66,7 +66,7 @@ def exit_codes() -> Generator[None, None, None]:
             err.print(f"error: {_of_a_file(cause)}", markup=False, highlight=False, soft_wrap=True)
             raise typer.Exit(FAILED_FILE) from cause
         except (AnalysisInterrupted, KeyboardInterrupt) as cause:
-            # what was complete is on disk, not in an attribute
+            # the complete part is on disk, not in an attribute
             err.print(str(cause).split(": ")[0] or "interrupted", markup=False, soft_wrap=True)
             raise typer.Exit(INTERRUPTED) from cause
         finally:
@@ -75,7 +75,7 @@ def exit_codes() -> Generator[None, None, None]:
 
 
 def say(text: str) -> None:
-    """Print a text as it is, whatever is in it."""
+    """Print a text unchanged."""
     out.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
@@ -109,7 +109,7 @@ _REMEDIES = {
 
 
 def trust(anywhere: bool) -> None:
-    """Have Python files that a project names run from anywhere, or from its folder alone."""
+    """Allow Python files of a project outside of its folder, or only inside."""
     _TRUST.set(anywhere)
 
 
@@ -117,7 +117,7 @@ _TRUST: ContextVar[bool] = ContextVar("_TRUST", default=False)
 
 
 def project_in(file: Path) -> ProjectInputs:
-    """Return the project of a file; the Python files that it names are told before they run."""
+    """Return the project of a file; its Python files are listed before they run."""
     from frames.design.project.inputs import ProjectInputs
     from frames.design.project.reading import read_project
 

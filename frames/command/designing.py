@@ -30,7 +30,7 @@ OBJECTIVES: dict[str, Objective] = {
     "cost-like": "bearing volume",
     "cost": "cost",
 }
-"""What the command calls the objectives of `design`."""
+"""Names of the objectives of `design` in the command."""
 
 _SHOWN = [
     "radius [m]",
@@ -142,7 +142,7 @@ def _put(file: Path, sections: str) -> None:
 def _found(
     parts: ProjectInputs, target: DesignTarget, sizes: int, least: Objective, results: Path
 ) -> Design:
-    # Where no candidate keeps what is asked, they are written before the error is told.
+    # If no candidate meets the target, the candidates are written before the error is shown.
     from frames.design.sizing.proposal import design
     from frames.design.sizing.selection import NoCandidateError
 
@@ -246,7 +246,7 @@ def _written(
     folder: Path,
     impossible: Sequence[Impossible] = (),
 ) -> str:
-    # Table and picture; returns where they are.
+    # Writes table and picture; returns their paths.
     from frames.design.plots import design_candidates  # with matplotlib
     from frames.design.sizing.selection import table_of
     from frames.plots.plot_style import png_of

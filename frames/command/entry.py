@@ -1,4 +1,4 @@
-"""Where the command ``lir`` begins: what it needs may not be installed."""
+"""Entry of the command ``lir``: its packages may not be installed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NEEDED = ("typer", "rich", "pydantic", "pint", "jinja2")
 
 
 def main() -> None:
-    """Run the command, or say what is missing."""
+    """Run the command, or name the missing package."""
     missing = [name for name in NEEDED if find_spec(name) is None]
     if missing:
         text = f"lir needs {', '.join(missing)}: pip install 'lir-dcfp[cli]'\n"

@@ -1,4 +1,4 @@
-"""Candidates of a proposal tried on one mass and on the building: what they reach, what fails."""
+"""Trials of candidates on one mass and on the building: their results and failures."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class Attempt(NamedTuple):
     """A candidate tried on one mass, on the building's quick model, and as the project runs."""
 
     trial: Trial
-    quick: Verified | None = None  # None where no run on one mass came through
-    full: Verified | None = None  # None where it is not asked for
+    quick: Verified | None = None  # None if no run on one mass was complete
+    full: Verified | None = None  # None if it was not requested
 
     @property
     def last(self) -> Verified | None:
@@ -37,12 +37,12 @@ class Attempt(NamedTuple):
 
     @property
     def passed(self) -> bool:
-        """Whether no check fails on that."""
+        """True if no check fails on that."""
         return self.last is not None and self.last.passed
 
     @property
     def rank(self) -> tuple[float, ...]:
-        """How near it is to passing: the less, the nearer."""
+        """Distance from passing: the less, the nearer."""
         if self.last is None or self.last.run is None:
             return (2.0, float(self.trial.failures(1.0)))
         return (float(not self.passed), float(len(self.last.obstacles)))
@@ -57,7 +57,7 @@ def tried(
     verify: bool,
     every: bool,
 ) -> list[Attempt]:
-    """Try candidates until one passes, or each of them; none where there are no motions to try.
+    """Try candidates until one passes, or each of them; none without motions.
 
     Those that do not pass on one mass are tried on the building after the others.
     """
@@ -111,7 +111,7 @@ def tried(
 
 
 def _one_mass(parts: ProjectInputs) -> OneMass | None:
-    # How candidates are tried on one mass, said; None without motions, which is warned of.
+    # Trial of candidates on one mass, described; None without motions, with a warning.
     from frames.design._errors import ProjectError
     from frames.design.project.preliminary import scaled_motions
     from frames.design.sizing.trial import MARGIN, OneMass
@@ -176,7 +176,7 @@ def _said(one: Verified) -> str:
 
 
 def _write_tried(done: Sequence[Attempt], folder: Path) -> None:
-    # Tables and picture of what was tried on the building.
+    # Tables and picture of the trials on the building.
     from frames.design.plots import tried_candidates
     from frames.design.project.verification import verification_table
     from frames.plots.plot_style import png_of
@@ -199,7 +199,7 @@ def best_of(attempts: Sequence[Attempt]) -> Attempt | None:
 
 
 def conclude(best: Attempt | None) -> None:
-    """Say whether all checks pass and by which margin; else what stands in the way."""
+    """Report that all checks pass and the margin; else the failures."""
     if best is None:
         return
     last, who = best.last, f"radius {best.sized.radius:g} m, friction {best.sized.friction.f_max:g}"

@@ -1,1 +1,1 @@
-"""Models of other programs: their tables read into one neutral building, and frames made of it."""
+"""Models of other programs: their tables read into one neutral building, and made into frames."""

@@ -1,8 +1,8 @@
 """A building as other programs hold it: objects, properties and loads, in SI and global axes.
 
-It is what a file is read into; `to_frame.fill` makes a `Frame` of it. Names are those of the file.
-Axes 1, 2, 3 of an object are those of the programs: 1 along a frame object, 2 in the vertical plane
-through it (+X for a vertical one), turned by its angle.
+A file is read into it; `to_frame.fill` makes a `Frame` of it. Names are those of the file. Axes 1,
+2, 3 of an object are those of the programs: 1 along a frame object, 2 in the vertical plane through
+it (+X for a vertical one), rotated by its angle.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ LINK_DOFS = ("U1", "U2", "U3", "R1", "R2", "R3")
 
 @dataclass(frozen=True)
 class Joint:
-    """A point: name, coordinates [m], and where the file has it."""
+    """A point: name, coordinates [m], and its place in the file."""
 
     name: str
     x: float
@@ -95,7 +95,7 @@ class FrameSection:
 
 
 NO_SECTION = FrameSection("", "", "", 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
-"""In place of one that cannot be read, until all such are said together."""
+"""Substitute for an unreadable one, until all are reported together."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ class FrameObject:
 
 @dataclass(frozen=True)
 class AreaSection:
-    """A shell: thickness for its plane and for bending [m]; what of it is stiff, and its factors.
+    """A shell: thickness for its plane and for bending [m]; its stiff parts, and their factors.
 
     `kind` is "shell", "membrane", "plate" or "none" (loads alone); `in_plane`, `bending` the
     factors on its stiffness [-], `mass` and `weight` those on its own.
@@ -201,7 +201,7 @@ class LinkProperty:
 
 @dataclass(frozen=True)
 class LinkObject:
-    """A link from joint i to joint j; without j it stands on the ground."""
+    """A link from joint i to joint j; without j its other end is the ground."""
 
     name: str
     i: str
@@ -244,7 +244,7 @@ class JointLoad:
 class LineLoad:
     """A load along a frame object, linear between two distances from joint i as shares [-].
 
-    `start`, `end` are in global axes [N/m]; `point` a force [N] at `a` where it is one.
+    `start`, `end` are in global axes [N/m]; `point` a force [N] at `a` if it is one.
     """
 
     frame: str
@@ -267,7 +267,7 @@ class AreaLoad:
 
 @dataclass(frozen=True)
 class MassSource:
-    """What of a building is mass: its elements, masses added to joints, and shares of patterns."""
+    """Mass source of a building: its elements, masses added to joints, and shares of patterns."""
 
     elements: bool
     added: bool
@@ -282,7 +282,7 @@ class Building:
     program: str  # of the file
     version: str  # of the file
     units: Units  # of the file
-    account: ImportReport  # what was read, read as something else, and left out
+    account: ImportReport  # objects read, read as something else, and left out
     joints: dict[str, Joint] = field(default_factory=dict)
     materials: dict[str, Material] = field(default_factory=dict)
     sections: dict[str, FrameSection] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""What the account of an import says of the frame, and what was probably not meant: doubts."""
+"""Account of an import: statements on the frame, and doubts about the intended model."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ MASS_OVER_WEIGHT = (0.5, 1.05)
 def doubt_weights(
     building: Building, shares: Mapping[str, float], source: MassSource, gravity: float
 ) -> None:
-    """Doubt materials without weight, and a mass that does not fit the permanent loads."""
+    """Warn of materials without weight, and of a mass that does not fit the permanent loads."""
     account, size = building.account, Sizes(building)
     heavy = [name for name, pattern in building.patterns.items() if pattern.self_weight]
     known, volume = building.materials, sum(size.volumes.values())
@@ -114,7 +114,7 @@ def doubt_weights(
 def doubt_base(
     frame: FrameData, building: Building, places: Places, options: Options, turned: list[str]
 ) -> None:
-    """Doubt supports that carry load beside the bearings, and a light base."""
+    """Warn of supports that carry load besides the bearings, and of a light base."""
     account = building.account
     tops = {part.j for part in frame.bearings.values()}
     if not tops:
@@ -172,7 +172,7 @@ def _quoted(names: Iterable[str]) -> str:
 
 
 def note_members(building: Building, sections: Sections, divided: list[SplitMember]) -> None:
-    """Note frame objects that became something else: softened, divided, offset, cut."""
+    """Record frame objects that became something else: softened, divided, offset, cut."""
     account = building.account
     account.read_as(
         "sections",
@@ -200,7 +200,7 @@ def note_members(building: Building, sections: Sections, divided: list[SplitMemb
 
 
 def note_areas(building: Building, slabs: Slabs, mesh: Mesh) -> None:
-    """Note loads of areas that went to their corners, and in which directions masses act."""
+    """Record loads of areas that went to their corners, and the directions of masses."""
     account = building.account
     shells = {area for area, _ in mesh.elements}
     loaded = [name for name in slabs.at_corners if name not in shells]

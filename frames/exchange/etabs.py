@@ -298,7 +298,7 @@ def read_properties(
 def _named(
     row: Row, constants: Section | None, library: Mapping[str, Shape] | None
 ) -> Section | Shape | None:
-    # Constants from elsewhere: those given, and of what the file only names, of the library.
+    # Constants from elsewhere: those given, and for named sections those of the library.
     if constants is not None or row.has("AREA", "I33", "I22"):
         return constants
     return (library or {}).get(row.text("SHAPE", "").strip().upper())

@@ -1,4 +1,4 @@
-"""The dialect of ETABS' text: fields by what they are, what has no effect, what is refused."""
+"""Text of ETABS: fields by kind, fields without effect, refused lines."""
 
 import math
 
@@ -187,7 +187,7 @@ NAMES = {
     "NAMEDFMODIFIER": ("Modifier",),
     "NAMEDSHMODIFIER": ("Modifier",),
 }
-"""Positional values of a line by its first word; what follows are words with values."""
+"""Positional values of a line by its first word; words with values follow."""
 
 ALIASES = {
     "MATERIAL": {"M": "MASSPERVOLUME", "W": "WEIGHTPERVOLUME"},
@@ -217,7 +217,7 @@ REFUSED = (
     ("STAGE", "staged construction", "stages of construction, taken as built at once"),
     ("SEQUENTIAL", "staged construction", "stages of construction, taken as built at once"),
 )
-"""Lines whose loss would change the answer: beginning of the first word, key of `allow`, what."""
+"""Lines whose loss would change the answer: beginning of the first word, key of `allow`, name."""
 
 KNOWN = {
     "": " ".join(

@@ -76,7 +76,7 @@ class EtabsLinks:
             self.building.account.refuse("links", PLACES, what, [n for n, _ in refused], place)
 
     def _ends(self, row: Row) -> list[str]:
-        # Joints of the pairs of story and point; none where the line is no such thing.
+        # Joints of the pairs of story and point; none for another kind of line.
         words = row.text("Ends", "").split("\n")
         if len(words) not in {2, 4}:
             return []
@@ -134,7 +134,7 @@ def read_groups(tables: Tables, building: Building) -> None:
     """Read the groups, by which bearings are placed, into a building that has its links.
 
     A line names a group and an object of it: GROUP "ISO" POINT "12" "Base", GROUP "ISO" LINK "K1".
-    A point that stands on a link brings this link along.
+    A point at the upper end of a link brings this link along.
     """
     odd = []
     for row in tables.rows("GROUP"):

@@ -32,11 +32,11 @@ _PINNED = ["M2I", "M3I", "M2J", "M3J"]
 
 
 class Objects:
-    """Reads the objects of an ETABS file into a building that has its stories and properties.
+    """Reader of the objects of an ETABS file into a building with stories and properties.
 
     A joint is a point at a story, "12-Story2"; an object is a line or an area at a story.
-    `on_links` has the springs that are links, by the joint that stands on them; `bare` the joints
-    of lines without a section.
+    `on_links` has the springs that are links, by their upper joint; `bare` the joints of lines
+    without a section.
     """
 
     def __init__(self, tables: Tables, building: Building) -> None:
@@ -81,7 +81,7 @@ class Objects:
         return name
 
     def is_place(self, point: str, story: str) -> bool:
-        """Return whether there are such a point and such a story."""
+        """Return True if the point and the story exist."""
         return point in self._points and story in self.stories
 
     def _below(self, row: Row, story: str, count: int) -> str:
@@ -240,14 +240,14 @@ class Diaphragms:
         self._apart: set[str] = set()
 
     def of_area(self, row: Row, joints: list[str], story: str) -> None:
-        """Note the diaphragm that a line assigns to an area with these corners."""
+        """Record the diaphragm that a line assigns to an area with these corners."""
         name = self._name(row)
         if name and name.upper() != self._APART:
             self._areas.append(((name, story), joints))
             self._joints.setdefault((name, story), [])
 
     def of_point(self, row: Row, joint: str, story: str) -> None:
-        """Note the diaphragm that a line assigns to a joint, or that it belongs to none."""
+        """Record the diaphragm that a line assigns to a joint, or that it belongs to none."""
         name = self._name(row)
         if name.upper() == self._APART:
             self._apart.add(joint)

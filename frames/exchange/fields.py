@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Bound(NamedTuple):
-    """What a number must be: the words of the refusal, and whether a number is that."""
+    """Bound of a number: the words of the refusal, and the test."""
 
     words: str
     holds: Callable[[float], bool]
@@ -31,9 +31,9 @@ POISSON = Bound("must lie in (-1, 0.5]", lambda value: -1.0 < value <= 0.5)
 class Field(NamedTuple):
     """A number, a text, or a Yes of a file.
 
-    `ours` is what it is called in a row of a building, `names` what the file calls it: the first
-    name is written, the others are those of other versions. `unit` is one of `Units`, or
-    "text" or "yes"; without a `default` the file must have it. A 0 of the file stands for `zero`.
+    `ours` is its name in a row of a building, `names` are those in the file: the first name is
+    written, the others are those of other versions. `unit` is one of `Units`, or "text" or "yes";
+    without a `default` the file must have it. A 0 of the file is read as `zero`.
     """
 
     ours: str
@@ -42,7 +42,7 @@ class Field(NamedTuple):
     default: Any = 0.0
     bound: Bound = ANY
     zero: float = 0.0
-    said: str = ""  # what messages call a reference
+    said: str = ""  # name of a reference in messages
 
 
 Fields: TypeAlias = tuple[Field, ...]
@@ -73,7 +73,7 @@ OF_SHELLS = "F11 F22 F12 M11 M22 M12 mass weight"
 
 
 class Refusal(NamedTuple):
-    """A field whose loss would change the answer: its names, the key of `allow`, and what it is.
+    """A field whose loss would change the answer: its names, the key of `allow`, and its meaning.
 
     It matters if its text does (`has`, `lacks`, `is_none_of`), or without `when` if it says Yes.
     "{}" in `what` is the text.
@@ -109,7 +109,7 @@ def is_none_of(*words: str) -> Callable[[str], bool]:
 
 
 def refused(row: Row, name: str, account: ImportReport, refusals: Iterable[Refusal]) -> bool:
-    """Refuse an object by its row, or note what `allow` accepts; return whether there was any."""
+    """Refuse an object by its row, or record an exception of `allow`; return True if any."""
     found = False
     for refusal in refusals:
         odd = refusal.odd(row)
@@ -129,7 +129,7 @@ def values(
     prefix: str = "",
     only_given: bool = False,
 ) -> dict[str, Any]:
-    """Return the fields of a row by our names, in SI; what is out of its bound is refused.
+    """Return the fields of a row by our names, in SI; values out of bounds are refused.
 
     Units are those of the building unless others are given.
     """

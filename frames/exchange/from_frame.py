@@ -219,7 +219,7 @@ def _add_loads(frame: FrameData, building: Building) -> None:
 
 
 def _weights(frame: FrameData) -> dict[str, float]:
-    # What masses and members weigh, at the nodes where their mass is.
+    # Weight of masses and members, at the nodes of their mass.
     mass: dict[str, float] = defaultdict(float)
     for node, values in frame.masses.items():
         none = frame.weightless_masses.get(node, np.zeros(6))

@@ -1,4 +1,4 @@
-"""Axes of objects, directions of loads, joints in areas; where frame objects are divided."""
+"""Axes of objects, directions of loads, joints in areas; division of frame objects."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ _GLOBAL = {
 def frame_axes(start: Point, end: Point, angle: float = 0.0) -> FloatArray:
     """Return the local axes of a frame object or a link.
 
-    Axis 1 runs from i to j; the 1-2 plane is vertical and 2 points up, of a vertical object
-    (sine of the angle to Z below 1e-3) 2 is +X; the angle turns 2 and 3 about 1.
-    Source: CSI Analysis Reference Manual, "The Frame Element", local coordinate system.
+    Axis 1 runs from i to j; the 1-2 plane is vertical and 2 points up; for a vertical object (sine
+    of the angle to Z below 1e-3) 2 is +X. The angle rotates 2 and 3 about 1. Source: CSI Analysis
+    Reference Manual, "The Frame Element", local coordinate system.
 
     Shapes: start, end (3,), result (3, 3).
     """
@@ -88,7 +88,7 @@ def direction_of(word: str, axes: FloatArray | None) -> tuple[FloatArray, bool] 
 
 
 def cardinal_shift(cardinal: int, depth: float, width: float) -> tuple[float, float]:
-    """Return where the centroid is from an insertion point of a doubly symmetric section."""
+    """Return the centroid relative to an insertion point of a doubly symmetric section [m]."""
     if not 1 <= cardinal <= 9:
         return 0.0, 0.0
     row, column = divmod(cardinal - 1, 3)
@@ -158,9 +158,9 @@ class SplitMember:
 
     frame: FrameObject
     nodes: list[str]  # from joint i to joint j
-    shares: FloatArray  # where they are, of the length between the joints [-]
-    start: FloatArray  # (3,), where its axis is at joint i [m]
-    way: FloatArray  # (3,), from there to where its axis is at joint j [m]
+    shares: FloatArray  # their positions, over the length between the joints [-]
+    start: FloatArray  # (3,), its axis at joint i [m]
+    way: FloatArray  # (3,), from there to its axis at joint j [m]
     length: float  # between the joints [m]
     axes: FloatArray  # (3, 3), axes 1, 2, 3
     stiff: tuple[float, float]  # shares of the length that are stiff at i and at j [-]
@@ -174,7 +174,7 @@ class SplitMember:
 
     @property
     def cut(self) -> bool:
-        """Whether its stiff zones are shorter than asked for, to leave a flexible length."""
+        """True if its stiff zones are shorter than given, to leave a flexible length."""
         asked = self.frame.rigid * (self.frame.end_i + self.frame.end_j) / self.length
         return sum(self.stiff) < asked - 1e-9
 
@@ -183,7 +183,7 @@ class SplitMember:
         return self.start + share * self.way
 
     def flexible(self, place: int) -> tuple[float, float]:
-        """Return from where to where a member is flexible, as shares of the length."""
+        """Return the ends of a member's flexible part, as shares of the length [-]."""
         first, last = float(self.shares[place]), float(self.shares[place + 1])
         if place == 0:
             first = self.stiff[0]
@@ -301,7 +301,7 @@ def _at_loads(
 
 
 def under_loads(found: list[SplitMember], joints: Points) -> dict[str, list[tuple[str, float]]]:
-    """Return the nodes under point loads, and by the rule of the lever those beside them."""
+    """Return the nodes under point loads, or by the rule of the lever the nodes beside them."""
     beside = {}
     for one in found:
         real = [k for k, node in enumerate(one.nodes) if node in joints]
@@ -316,6 +316,6 @@ def under_loads(found: list[SplitMember], joints: Points) -> dict[str, list[tupl
 
 
 def is_offset(frame: FrameObject) -> bool:
-    """Return whether the axis of a frame object is beside its joints."""
+    """Return True if the axis of a frame object is beside its joints."""
     beside = frame.offset_i != NOWHERE or frame.offset_j != NOWHERE or frame.cardinal < 10
     return frame.transforms and beside

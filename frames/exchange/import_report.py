@@ -1,4 +1,4 @@
-"""An import: what may be chosen, and the account of what was read, read otherwise and left out."""
+"""An import: its options, and the account of objects read, read otherwise and left out."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Bearings: TypeAlias = "LIRBearing | Mapping[str, LIRBearing] | None"
 
 @dataclass(frozen=True)
 class Options:
-    """Options of an import; `Frame.from_sap2000` and `Frame.from_etabs` say what they mean."""
+    """Options of an import, as in `Frame.from_sap2000` and `Frame.from_etabs`."""
 
     bearing: Bearings = None
     at: Sequence[str] | None = None
@@ -45,7 +45,7 @@ class Options:
     library: str | Path | Sequence[str | Path] = ()
 
     def __post_init__(self) -> None:
-        """Check what can be checked without the file."""
+        """Check the options that do not depend on the file."""
         choices = ("kept", "free", "fixed")
         require_choice("base_rotations", self.base_rotations, choices, error=ModelError)
         require_positive("mesh [m]", self.mesh, remedy="give metres", error=ModelError)
@@ -65,16 +65,16 @@ class Options:
 
 
 READ, READ_AS, LEFT_OUT = "read", "read as something else", "left out"
-"""What becomes of objects of a file."""
+"""Treatment of objects of a file."""
 
 
 @dataclass(frozen=True)
 class Entry:
-    """Objects of one table that fared alike."""
+    """Objects of one table with the same treatment."""
 
     fate: str  # READ, READ_AS or LEFT_OUT
     table: str
-    what: str  # which objects, and what became of them
+    what: str  # the objects, and their treatment
     count: int
     names: tuple[str, ...] = ()  # some of them
     weight: float | None = None  # share of the own weight that they stand for [-]
@@ -82,7 +82,7 @@ class Entry:
 
 
 class ImportReport:
-    """What became of everything in a file; `allow` has keys of what may be left out of it."""
+    """Treatment of all objects of a file; `allow` has keys of objects that may be left out."""
 
     SHOWN = 6
     REASONS = 12
@@ -94,11 +94,11 @@ class ImportReport:
         self.file, self.allow = file, frozenset(allow)
         self.entries: list[Entry] = []
         self.groups: dict[str, tuple[str, ...]] = {}  # joints and links by group
-        self.doubts: list[str] = []  # what was probably not meant, for warnings
+        self.doubts: list[str] = []  # probable mistakes, for warnings
         self._line, self._began = ProgressLine(), perf_counter()
         self._used: set[str] = set()
-        self._faults: dict[str, None] = {}  # what cannot be read, in words
-        # places and names of objects that `allow` could accept, by its key and what they are
+        self._faults: dict[str, None] = {}  # unreadable objects, in words
+        # places and names of objects that `allow` could accept, by its key and their kind
         self._refused: dict[tuple[str, str], tuple[str, list[str]]] = {}
 
     def __str__(self) -> str:
@@ -106,30 +106,30 @@ class ImportReport:
         return self.text()
 
     def doing(self, what: str, *, ends: bool = False) -> None:
-        """Say what is being made of a file that takes long, on the standard error."""
+        """Report the present step of a long import on the standard error."""
         elapsed = perf_counter() - self._began
         if not quiet() and not (ends and not self._line.is_open):
             text = f"{self.file}: {what}" + (f", {elapsed:.0f} s" if ends else "")
             self._line.write(text, elapsed, ends=ends)
 
     def read(self, table: str, what: str, count: int) -> None:
-        """Note objects that were read as they are; none is not noted."""
+        """Record objects read as they are; no entry for zero."""
         if count:
             self.entries.append(Entry(READ, table, what, count))
 
     def read_as(self, table: str, what: str, names: Collection[str], *shares: float | None) -> None:
-        """Note objects that were read as something else; none is not noted.
+        """Record objects read as something else; no entry for zero.
 
         `shares` are those of the weight and of the stiffness [-].
         """
         self._add(READ_AS, table, what, names, *shares)
 
     def left_out(self, table: str, what: str, names: Collection[str]) -> None:
-        """Note objects that were left out and do not change the answer; none is not noted."""
+        """Record objects left out without effect on the answer; no entry for zero."""
         self._add(LEFT_OUT, table, what, names)
 
     def unknown(self, fields: Collection[tuple[str, str, Row, int]]) -> None:
-        """Doubt fields of known tables that are not known here, once for each table."""
+        """Warn of unknown fields of known tables, once for each table."""
         for table in dict.fromkeys(table for table, *_ in fields):
             found = {
                 _of_line(f'{field} = "{row.values[field]}"', row.line, count): row
@@ -150,7 +150,7 @@ class ImportReport:
     def refuse(
         self, key: str, table: str, what: str, names: Collection[str], place: str = ""
     ) -> None:
-        """Note objects whose loss would change the answer; `settle` raises unless allowed."""
+        """Record objects whose loss would change the answer; `settle` raises unless allowed."""
         if not names:
             return
         if key not in self.allow:
@@ -166,12 +166,12 @@ class ImportReport:
         )
 
     def fault(self, message: str) -> None:
-        """Note in words what cannot be read; `settle` raises it with the others."""
+        """Record an unreadable object in words; `settle` raises it with the others."""
         self._faults.setdefault(message)
 
     @contextlib.contextmanager
     def noting(self) -> Generator[None, None, None]:
-        """Note an error of one object, and go on."""
+        """Record an error of one object, and go on."""
         try:
             yield
         except ModelError as error:
@@ -214,7 +214,7 @@ class ImportReport:
         raise ModelError("\n".join(lines))
 
     def finish(self) -> None:
-        """Raise where `allow` names something that the file does not have."""
+        """Raise if `allow` names an object that the file does not have."""
         self.settle()
         idle = sorted(self.allow - self._used)
         if idle:
@@ -232,7 +232,7 @@ class ImportReport:
         return worded("{names} and {count} more", names=first, count=more) if more else first
 
     def rows(self) -> list[tuple[str, str, str, str, str, str]]:
-        """Return rows of text: fate, table, what, count, share of weight, share of stiffness."""
+        """Return rows of text: treatment, table, objects, count, weight share, stiffness share."""
         order = (LEFT_OUT, READ_AS, READ)
         return [
             (

@@ -42,12 +42,12 @@ PENDULUM_LINKS = ("friction isolator", "sliding isolator", "friction pendulum")
 
 
 def equivalent_bearing(link: LinkProperty, place: str, height: float = 0.0) -> LIRBearing:
-    """Return the DCFP that slides like a friction isolator link.
+    """Return the DCFP equivalent to a friction isolator link.
 
     Two equal surfaces of radius R_1 with L = 2 R_1 - h, the link's radius. At a displacement u each
-    slides by u R_1 / L, and Q/W = 2 mu R_1 / L: so friction coefficients are the link's times
-    L / (2 R_1), and the rate parameter is the link's times L / R_1. The slider is rigid, without
-    rims; its axial stiffness is that of U1.
+    slides by u R_1 / L, and Q/W = 2 mu R_1 / L: so friction coefficients are the link's times L /
+    (2 R_1), and the rate parameter is the link's times L / R_1. The slider is rigid, without rims;
+    its axial stiffness is that of U1.
     """
     shear = [link.dofs.get(name) for name in ("U2", "U3")]
     found = [dof.values for dof in shear if dof is not None and dof.nonlinear]
@@ -92,7 +92,7 @@ def equivalent_bearing(link: LinkProperty, place: str, height: float = 0.0) -> L
 
 
 def yield_displacements(frame: FrameData, stiffness: Mapping[str, float]) -> dict[str, LIRBearing]:
-    """Return bearings that are as stiff before sliding as the links whose place they take.
+    """Return bearings that are as stiff before sliding as the replaced links.
 
     The strength Q is reached at a displacement of Q / K, at which a surface has slid by its share
     R_i / L; Q is that of fast sliding under the permanent loads.
@@ -229,7 +229,7 @@ class Links:
     def _spring_at(
         self, link: LinkObject, name: str, dof: LinkDof, last: str, along: FloatArray
     ) -> str:
-        # Where a shear spring is: at joint j, or on a rigid lever DJ from it towards joint i.
+        # Place of a shear spring: at joint j, or on a rigid lever DJ from it towards joint i.
         away = dof.values.get("place", 0.0)
         if name not in {"U2", "U3"} or abs(away) < 1e-6:
             return last

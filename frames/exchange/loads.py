@@ -184,8 +184,8 @@ def own_loads(
 
 
 def _link_loads(building: Building, pattern: str, gravity: float) -> Iterator[JointLoad]:
-    # Half of what a link weighs at each of its joints, the other half of one with a single joint
-    # in the ground. Source: CSI Analysis Reference Manual, "The Link/Support Element", mass.
+    # Half of the weight of a link at each of its joints; the other half of a grounded link with a
+    # single joint is lost. Source: CSI Analysis Reference Manual, "The Link/Support Element", mass.
     for link in building.links.values():
         prop = building.link_properties[link.property]
         half = 0.5 * (gravity * prop.mass if gravity else prop.weight)
@@ -261,7 +261,7 @@ def add_combinations(
 
 
 class Sizes:
-    """Lengths [m] of frame objects, areas [m2], volumes of materials [m3], and what they share."""
+    """Lengths [m] of frame objects, areas [m2], volumes of materials [m3], and shared totals."""
 
     def __init__(self, building: Building) -> None:
         self.building = building
@@ -297,7 +297,7 @@ class Sizes:
         return _share(self._weight, names), _share(self._stiffness, names)
 
     def down(self, loads: Iterable[LineLoad | AreaLoad | JointLoad]) -> dict[str, float]:
-        """Return what loads come to downwards, by pattern [N]."""
+        """Return the downward sum of loads, by pattern [N]."""
         found: dict[str, float] = {}
         for load in loads:
             if isinstance(load, JointLoad):

@@ -35,7 +35,7 @@ _GAUSS = ((0.5 - 0.5 / math.sqrt(3.0), 0.5), (0.5 + 0.5 / math.sqrt(3.0), 0.5))
 
 
 class Sections:
-    """Sections of members by what they are made of, each made once."""
+    """Sections of members by their sources, each made once."""
 
     def __init__(self, building: Building) -> None:
         self._building = building
@@ -123,7 +123,7 @@ def add_line_load(
 ) -> None:
     """Add a load along a frame object, or a force on it, to its members and nodes.
 
-    What acts on a stiff zone goes to its node as a force and a moment.
+    The load on a stiff zone goes to its node as a force and a moment.
     """
     if load.point:
         place = int(np.abs(one.shares - load.a).argmin())
@@ -188,7 +188,7 @@ def _resultant(one: SplitMember, load: LineLoad, a: float, b: float, at: FloatAr
 
 
 class Places:
-    """Where bearings stand: under joints, and in place of links."""
+    """Places of bearings: under joints, and instead of links."""
 
     def __init__(self, building: Building, options: Options) -> None:
         self._building = building

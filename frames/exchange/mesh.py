@@ -1,4 +1,4 @@
-"""A mesh of the areas that are shells: edges divided alike on both sides, and at joints on them."""
+"""Mesh of the areas that are shells: edges divided equally on both sides, and at their joints."""
 
 from __future__ import annotations
 
@@ -202,7 +202,7 @@ def _even_out(quads: Sequence[AreaObject], cells: dict[Edge, list[int]]) -> None
 
 
 class _Places:
-    # Nodes by place: a new one that is where another one is, is that one.
+    # Nodes by place: a new one at the place of another is that one.
     def __init__(self, points: Points) -> None:
         self.points = points
         self._cells: dict[tuple[int, ...], list[str]] = {}

@@ -26,15 +26,16 @@ class PendulumLink(NamedTuple):
 
 
 def pendulum_link(bearing: LIRBearing, load: float, displacement: float) -> PendulumLink:
-    r"""Return the link that stands for a bearing.
+    r"""Return the link equivalent to a bearing.
 
     .. math::
         K_{eff} = \frac{W}{L} + \frac{Q}{D}, \quad c = \frac{4 Q D}{\pi \omega D^2}, \quad
         \omega^2 = \frac{K_{eff} g}{W}
 
     Q/W of a surface that slides by u R_i / L at a displacement u is mu_i R_i / L; its rate
-    parameter counts for the speed of the bearing times R_i / L. Where the surfaces differ, the mean
-    by what friction grows with the speed is taken. Rims, interface and slip have no link.
+    parameter applies to the speed of the bearing times R_i / L. If the surfaces differ, the link
+    has the mean weighted by the growth of friction with speed. Rims, interface and slip have no
+    link.
     """
     length = bearing.effective_radius
     shares = [radius / length for radius in bearing.radii]

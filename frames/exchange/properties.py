@@ -206,7 +206,7 @@ def filled_section(
     area = wall.area + stretch * core.area
 
     def share(value: Callable[[Material], float], word: str) -> float:
-        # What both weigh over what the transformed area of steel alone would.
+        # Weight of both over that of the transformed area of steel alone.
         own, inside = value(steel), value(fill)
         if own <= 0.0:
             if inside <= 0.0:

@@ -246,8 +246,8 @@ def _row(file: str, section: str, line: int, text: str, decimal: Decimal) -> Row
 
 
 def _words(row: Row, tokens: list[tuple[str, bool]]) -> None:
-    # A word without quotes, and the value after it; a word that comes again adds to a list, and
-    # text where a word should be stands by itself.
+    # A word without quotes, and the value after it; a repeated word adds to a list, and text in the
+    # place of a word is kept by itself.
     at, aliases = 0, ALIASES.get(str(row.values[""]), {})
     while at < len(tokens):
         word, quoted = tokens[at]

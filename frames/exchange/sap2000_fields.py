@@ -1,4 +1,4 @@
-"""The dialect of SAP2000's tables: fields by what they are, what has no effect, what is refused."""
+"""Tables of SAP2000: fields by kind, fields without effect, refused tables."""
 
 import math
 
@@ -103,7 +103,7 @@ LINEAR = {
     False: _FIXED + fields("stiffness=TransKE damping=TransCE", "line"),
     True: _FIXED + fields("stiffness=RotKE damping=RotCE", "moment"),
 }
-"""Whether a link's deformation is fixed, its stiffness and damping; by whether it is a rotation."""
+"""Fixity of a link's deformation, its stiffness and damping; by translation or rotation."""
 
 _ANY_TURN = (
     *fields("ratio=Ratio exponent=YieldExp slow=Slow fast=Fast damping_exponent=CExp"),
@@ -141,7 +141,7 @@ ABSOLUTE = {
     False: fields("a=AbsDistA b=AbsDistB", "length", None),
     True: fields("a=AbsDist b=AbsDist", "length", None),
 }
-"""Where a load along a frame object begins and ends, by whether it is a force at a point."""
+"""Begin and end of a load along a frame object, for a distributed load or a force at a point."""
 
 _MULTIPLE = (*_PATTERN, *fields("x=MultiplierX y=MultiplierY z=MultiplierZ"))
 FRAME_GRAVITY, AREA_GRAVITY = _FRAME + _MULTIPLE, _AREA + _MULTIPLE
@@ -213,7 +213,7 @@ REFUSED = (
     ("FRAME ADDED MASS", "added masses", "masses added to frames"),
     ("JOINT ADDED MASS BY", "added masses", "masses added to joints by weight or volume"),
 )
-"""Tables whose loss would change the answer: beginning of the name, key of `allow`, what it is."""
+"""Tables whose loss would change the answer: beginning of the name, key of `allow`, name."""
 
 HARMLESS = (
     "AREA AUTO MESH",

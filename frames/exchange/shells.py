@@ -1,4 +1,4 @@
-"""Which areas are shells, and their stiffness by the elements of OpenSees, as a superelement."""
+"""Areas that are shells, and their stiffness by the elements of OpenSees, as a superelement."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def with_quadrilaterals(
 ) -> list[AreaObject]:
     """Return shells, and the parts of those of more than four corners, or of triangles to divide.
 
-    Each corner of such an area has one: to the middles of its edges and to their centre, which
+    Each corner of these areas has one part: to the middles of its edges and to their centre, which
     must see all edges. The building has the parts, their joints and their loads.
     """
     many = [area for area in shells if len(area.joints) > 4]
@@ -166,7 +166,7 @@ def _tie(building: Building, decks: list[AreaObject]) -> None:
 AT_ONCE = 8
 """Elements whose matrices are read together, in a full one."""
 
-_ALIKE = 9  # decimals of the sides of elements that are alike [m]
+_ALIKE = 9  # decimals of the sides of equal elements [m]
 
 
 _PLUMB = 1e-6  # cosine of a normal, below which an area stands upright
@@ -192,7 +192,7 @@ def add_shells(frame: Frame, building: Building, mesh: Mesh) -> None:
     names = list(dict.fromkeys(node for _, nodes in mesh.elements for node in nodes))
     index = {name: k for k, name in enumerate(names)}
     points = np.array([frame.nodes[name].position for name in names])
-    kinds: dict[tuple[object, ...], list[IntArray]] = {}  # nodes of elements that are alike
+    kinds: dict[tuple[object, ...], list[IntArray]] = {}  # nodes of equal elements
     for area, nodes in mesh.elements:
         numbers = np.array([index[node] for node in nodes])
         sides = points[numbers[1:]] - points[numbers[0]]
@@ -264,7 +264,7 @@ def _matrices(
 
 
 def shell_numbers(building: Building, area: AreaObject) -> tuple[float, float, float, float]:
-    """Return what a shell's section is made of."""
+    """Return the properties of a shell's section."""
     section = building.area_sections[area.section]
     matter = building.materials[section.material]
     plane = section.in_plane * area.in_plane
@@ -339,7 +339,7 @@ def _area_section(name: str, material: str, shell: ShellElement) -> AreaSection:
 
 
 def area_kind(building: Building, joints: tuple[str, ...]) -> str:
-    """Return what ETABS calls an area: by its normal."""
+    """Return ETABS' kind of an area: by its normal."""
     normal, _ = area_normal(np.array([building.joints[name].position for name in joints]))
     if abs(normal[2]) > 1.0 - _PLUMB:
         return "FLOOR"

@@ -33,10 +33,10 @@ _PANEL = "panel"
 
 
 def corner_shares(points: FloatArray) -> FloatArray:
-    """Return the share of a uniform load that each corner of a polygon gets (n,).
+    """Return the share of each corner of a polygon in a uniform load (n,) [-].
 
     The polygon is cut into triangles from each corner in turn, a third of each goes to each of its
-    corners, and the mean is taken: force and moments are those of the load.
+    corners, and the mean is the result: force and moments are those of the load.
 
     Shapes: points (n, 3), result (n,).
     """
@@ -57,9 +57,9 @@ def corner_shares(points: FloatArray) -> FloatArray:
 class Slabs:
     """Distributes loads on horizontal areas to the members that run along their panels.
 
-    A slab is cut into panels along the members within it; a panel gives its load to the members
-    along its edges, each point to the nearest edge, or one way. Where no members run along all
-    edges that carry, the corners of the area get it. The frame has all members.
+    A slab is cut into panels along the members within it. A panel gives its load to the members
+    along its edges, each point to the nearest edge, or one way. If members are missing along a
+    carrying edge, the corners of the area get it. The frame has all members.
     """
 
     def __init__(self, frame: Frame, building: Building) -> None:
@@ -129,7 +129,7 @@ class Slabs:
         return found
 
     def _faces(self, area: AreaObject, points: FloatArray) -> list[tuple[str, ...]]:
-        # Panels between the members within the area; the area itself where they do not fill it.
+        # Panels between the members within the area; the area itself if they do not fill it.
         plan = self._joined.within(points)
         links = {name: [o for o in self._beside[name] if o in plan] for name in plan}
         faces = faces_of(plan, links)
@@ -162,7 +162,7 @@ class Loading:
     def put(
         self, frame: Frame, slabs: Slabs, factors: Mapping[str, tuple[float, str]], own: bool
     ) -> None:
-        """Put the loads of patterns on a frame."""
+        """Add the loads of patterns to a frame."""
         building = self.building
         loads: list[LineLoad | AreaLoad | JointLoad] = [
             *building.line_loads,

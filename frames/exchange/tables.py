@@ -1,4 +1,4 @@
-"""Tables of another program's file: rows of named values that know where they stand; units."""
+"""Tables of another program's file: rows of named values with their places; units."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from frames._errors import ModelError, argument
 from lir_element.units import STANDARD_GRAVITY
 
 Value: TypeAlias = str | float | bool
-"""A cell: text of a text file, or what a workbook holds."""
+"""A cell: text of a text file, or a value of a workbook."""
 
 Decimal: TypeAlias = Literal[".", ","]
 """The decimal sign of a file, which is that of the Windows that wrote it."""
@@ -41,11 +41,11 @@ class Row:
 
     @property
     def place(self) -> str:
-        """Where the row stands: file, line and table."""
+        """Place of the row: file, line and table."""
         return self.place_of("")
 
     def place_of(self, field: str) -> str:
-        """Return where a field of the row stands."""
+        """Return the place of a field of the row."""
         table = f', table "{self.table}"' if self.table else ""
         return f"{self.file}, line {self.lines.get(field, self.line)}{table}"
 
@@ -226,7 +226,7 @@ def merged(
 
 
 def known(row: Row, field: str, name: str, names: Collection[str], of: str = "") -> str:
-    """Return a name that a row refers to, or raise where nothing has it."""
+    """Return a name that a row refers to, or raise if nothing has it."""
     if name not in names:
         some = ", ".join(list(names)[:6]) or "none"
         msg = f'{field} "{name}"{of} is not defined: there are {some}'
@@ -270,7 +270,7 @@ class Units:
     force: float
     length: float
 
-    one: ClassVar[float] = 1.0  # of what has no unit
+    one: ClassVar[float] = 1.0  # of values without a unit
 
     @cached_property
     def per_length(self) -> float:

@@ -56,7 +56,7 @@ READERS = {"SAP2000": read_sap2000, "ETABS": read_etabs}
 def imported(
     kind: type[F], program: str, path: str | Path, options: Options, name: str | None
 ) -> F:
-    """Return a program's model as a frame on bearings, and warn of what was probably not meant."""
+    """Return a program's model as a frame on bearings, and warn of probable mistakes."""
     building = READERS[program](path, options)
     building.account.doing(f"{len(building.frames)} frame objects, {len(building.areas)} areas")
     frame = kind(building.name if name is None else name)
@@ -83,7 +83,7 @@ def fill(frame: Frame, building: Building, options: Options) -> dict[str, LIRBea
 
 
 def judged(building: Building, options: Options) -> Judged:
-    """Return what the frame is made from; all reasons against the building are one error."""
+    """Return the input of the frame; all reasons against the building are one error."""
     with building.account.together():
         source = _source(building, options)
         shells = with_quadrilaterals(building, choose_shells(building), options.mesh)
@@ -93,7 +93,7 @@ def judged(building: Building, options: Options) -> Judged:
 
 
 class Judged(NamedTuple):
-    """What of a building is mass, which areas are shells, permanent loads, places of bearings."""
+    """Masses of a building, shells, permanent loads, and places of bearings."""
 
     source: MassSource
     shells: list[AreaObject]
@@ -131,7 +131,7 @@ def _filled(frame: Frame, building: Building, options: Options) -> dict[str, LIR
     loading = Loading(building, {one.frame.name: one for one in divided}, mesh)
     slabs = Slabs(frame, building)
     _add_masses(frame, building, loading, slabs, source, under_loads(divided, joints))
-    building.account.settle()  # before what takes long
+    building.account.settle()  # before the slow part
     _add_shells(frame, building, mesh)
     loading.put(frame, slabs, factors, own=False)
     _add_levels(frame, building, places)
@@ -247,7 +247,7 @@ def _add_nodes(
 ) -> None:
     for name, place in points.items():
         frame.add_node(name, *place)
-    # what has no stiffness of its own cannot move by itself
+    # nodes without stiffness of their own cannot move by themselves
     stiff = {node for one in divided for node in one.nodes}
     stiff |= {node for _, nodes in mesh.elements for node in nodes}
     stiff |= {j for link in building.links.values() for j in (link.i, link.j) if j is not None}

@@ -91,8 +91,8 @@ class Places:
 class EtabsWriter:
     """The text of a building, whose `version` has the words of the units.
 
-    `names` says what nodes ("12-Story2") and, once the text is made, members ("C1-Story2") are
-    called in it.
+    `names` has the names of nodes ("12-Story2") and, once the text is made, of members
+    ("C1-Story2").
     """
 
     def __init__(self, building: Building) -> None:
@@ -170,7 +170,7 @@ class EtabsWriter:
         return lines
 
     def _areas(self) -> tuple[list[str], list[str]]:
-        # Lines of places, and of what is assigned.
+        # Lines of places, and of assignments.
         places, assigns = [], []
         for k, area in enumerate(self.building.areas.values(), start=1):
             levels = [self.places.level(joint) for joint in area.joints]

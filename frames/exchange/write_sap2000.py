@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from frames.exchange.tables import Units
 
 Value: TypeAlias = str | float | int | bool
-"""What a cell holds."""
+"""Value of a cell."""
 
 Rows: TypeAlias = list[dict[str, Value]]
 
@@ -53,7 +53,7 @@ def _text(value: Value) -> str:
 
 
 def tables_of(building: Building) -> dict[str, Rows]:
-    """Return a building as tables; `version` of it has the words of the units."""
+    """Return a building as tables; its `version` has the words of the units."""
     head: dict[str, Value] = {"ProgramName": "SAP2000", "Version": "20.0.0"}
     found = {
         "PROGRAM CONTROL": [head | {"CurrUnits": building.version}],

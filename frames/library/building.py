@@ -255,7 +255,7 @@ Bearings: TypeAlias = "LIRBearing | Mapping[tuple[int, int], LIRBearing]"
 
 
 def require_device(name: str, device: object) -> None:
-    """Raise a TypeError unless `device` is what a bearing element is made of."""
+    """Raise a TypeError unless `device` can be made into a bearing element."""
     if not isinstance(getattr(device, "height", None), (int, float)):
         msg = f"{name} = {shown(device)} must be an LIRBearing, the device itself"
         raise TypeError(msg)

@@ -1,4 +1,4 @@
-"""What a building is made of: lines of columns, beams, braces, walls, fields of floors."""
+"""Parts of a building: lines of columns, beams, braces, walls, fields of floors."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class ColumnPart(NamedTuple):
 class BeamPart(NamedTuple):
     """A beam between two lines at a level."""
 
-    name: str  # what its name begins with, "beam-x" or "beam"
+    name: str  # beginning of its name, "beam-x" or "beam"
     level: int  # 0 is the base, k the floor on storey k
     start: str  # its lines in plan
     end: str
@@ -57,7 +57,7 @@ class WallPart(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class BuildingPlan:
-    """What a building is made of."""
+    """Parts of a building."""
 
     # lines in plan on which columns stand, by name: x and y [m]
     lines: Mapping[str, tuple[float, float]]

@@ -45,8 +45,8 @@ def lumped_mass(
     mass : float
         Mass above the bearing [kg], > 0.
     inertia : (float, float, float), optional
-        Rotational inertia of the mass about x, y, z through the top node [kg m2], > 0: it is then
-        free to rotate, for the levels "contact" and "rigid_body" (at the level "pendulum" a
+        Rotational inertia of the mass about x, y, z through the top node [kg m2], > 0. The mass is
+        then free to rotate, for the levels "contact" and "rigid_body" (at the level "pendulum" a
         bearing does not hold its plate's tilt). None: the plates stay parallel.
     gravity : float
         Acceleration of gravity [m/s2].
@@ -153,9 +153,9 @@ def moment_frame(
         sides of the plan [-]; codes ask for 0.05 (ASCE/SEI 7-22, 12.8.4.2). The masses of the
         nodes rise linearly towards it; the steel's own is not moved.
     base_depth : float
-        Depth of what is cast with the nodes over the bearings [m]: about x and y they get the
-        inertia m depth^2 / 12 of their mass m. Without any (0) the moment of a rim that is met hard
-        may have no equilibrium, and the run stops there.
+        Depth of the mass cast with the nodes over the bearings [m]: about x and y they get the
+        inertia m depth^2 / 12 of their mass m. With 0 the moment of a hard rim contact may have no
+        equilibrium, and the run stops there.
     damping : RayleighDamping, ModalDamping or None
         Damping of the structure; default 2 per cent in every mode.
     gravity : float

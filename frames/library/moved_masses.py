@@ -24,7 +24,7 @@ MOST = 0.25
 PART = "moved-masses"
 """Name of the superelement that moves them."""
 
-_SPREAD = 0.5  # of its mass that a node may lose or gain, where a floor's masses are tilted
+_SPREAD = 0.5  # share of its mass that a node may lose or gain, if a floor's masses are tilted
 _ALONG = 1e-9  # of the structure's plan, below which a floor has no extent
 _RZ = 5
 
@@ -39,17 +39,17 @@ class _Floor(NamedTuple):
 
 
 def with_moved_masses(frame: F, shares: tuple[float, float], name: str | None = None) -> F:
-    """Return a copy of a frame whose floors' masses are moved in plan; what they weigh stays.
+    """Return a copy of a frame with floor masses moved in plan; weights stay in place.
 
-    Floors are the levels of the frame, or the elevations of its masses above the bearings where it
-    has none; a mass belongs to the nearest. Where masses stand at several nodes of a floor each
-    becomes ``m (1 + a (s - s_c))`` along the axis s, with ``a = c M / sum(m (s - s_c)^2)``, which
-    moves their centre s_c by c and keeps their sum M; a floor whose masses stand at one node, or
-    too close together, carries them rigidly at the distance c, ``M_rz,ux = -m c_y``,
-    ``M_rz,uy = m c_x``, ``M_rz,rz = m c^2``. The side of such a floor is that of the whole
-    structure, else that of its nodes. Only the inertia in plan moves: a pendulum is as stiff as
-    what it carries is heavy, so that weights that moved along would move the centre of stiffness
-    with them, and take most of the torsion away (docs/choices_structure.md).
+    Floors are the levels of the frame, or the elevations of its masses above the bearings if it has
+    none; a mass belongs to the nearest. If masses are at several nodes of a floor, each becomes ``m
+    (1 + a (s - s_c))`` along the axis s, with ``a = c M / sum(m (s - s_c)^2)``, which moves their
+    centre s_c by c and keeps their sum M. A floor whose masses are at one node, or too close
+    together, carries them rigidly at the distance c, ``M_rz,ux = -m c_y``, ``M_rz,uy = m c_x``,
+    ``M_rz,rz = m c^2``. The side of that floor is that of the whole structure, else that of its
+    nodes. Only the inertia in plan moves. A pendulum's stiffness is proportional to its load, so
+    that moved weights would also move the centre of stiffness, and remove most of the torsion
+    (docs/choices_structure.md).
 
     Examples
     --------

@@ -79,24 +79,24 @@ def shear_building(
         is one bearing and no rotation.
     eccentricity : tuple of two floats
         Distance of the masses of base and floors from the middle of the plan along x and y, over
-        the sides of the plan [-]; codes ask for 0.05 (ASCE/SEI 7-22, 12.8.4.2). They stand on nodes
+        the sides of the plan [-]; codes require 0.05 (ASCE/SEI 7-22, 12.8.4.2). They are at nodes
         "base-mass", "floor-1-mass", ...
     storey_law : callable or sequence of Bilinear or BoucWen, optional
         Storeys that yield, the same along x and y: a law each from below, whose stiffness then is
         the storey's, or a function that makes a law of a stiffness. They are the links
         "storey-1-x", "storey-1-y", ...
     overturning : bool
-        With a plan, whether base and floors tilt together, so that storey shears times heights,
+        With a plan, True if base and floors tilt together, so that storey shears times heights,
         eccentric masses and the moments at the ends of the bearings change the axial forces of the
-        bearings. False holds the base level: bearings alike then carry equal loads under gravity,
-        their axial forces swing by the differences of their rise alone, and checks that need axial
-        forces are not evaluated; for comparisons with models that have no overturning.
+        bearings. False holds the base level. Equal bearings then carry equal loads under gravity,
+        their axial forces change by the differences of their rise alone, and checks that need axial
+        forces are not evaluated; for comparisons with models without overturning.
     base_stiffness : float or tuple of two floats, optional
         Bending stiffness E I of the beams on one grid line along x and y, those of all levels
-        together [N m2], > 0: what resists that one bearing rises above the plane of the others,
+        together [N m2], > 0. They resist the rise of one bearing above the plane of the others,
         besides the columns of the first storey, which hold the beams' ends as columns of its
-        stiffness that are fixed in the floors do. Default so that a span, held at both ends,
-        vibrates with a period of 0.05 s under its share of all masses.
+        stiffness that are fixed in the floors do. Default: a span, held at both ends, vibrates with
+        a period of 0.05 s under its share of all masses.
     damping : RayleighDamping, ModalDamping or None
         Damping of the structure; default 2 per cent in every mode.
     gravity : float
@@ -119,16 +119,16 @@ def shear_building(
 
     Notes
     -----
-    The stick does not bend: its floors tilt as its foot does, and a storey deforms by its shear
-    alone, so that periods on a held base are those of the storeys' stiffness. The foot follows the
-    plane that fits the bearings best; an overturning moment M gives the forces
-    ``M x_i / sum(x_i^2)`` as far as the base is rigid. Limits: every grid point carries the same
-    weight, not that of its tributary area; what floors weigh beside the base (P-Delta of the
-    storeys) adds no moment. With overturning, nodes over the bearings have the rotary inertia of
-    their share of the base's mass over a depth of 0.8 m, about x and y. This length is fixed: it
-    does not follow the scale of the building. `moment_frame` has it as `base_depth`. Without a
-    plan one bearing stands for all: nothing is known of their axial forces but the sum, and checks
-    that need them are not evaluated.
+    The stick does not bend: its floors tilt with its foot, and a storey deforms by its shear alone,
+    so that periods on a held base are those of the storeys' stiffness. The foot follows the plane
+    that fits the bearings best; an overturning moment M gives the forces ``M x_i / sum(x_i^2)`` as
+    far as the base is rigid. Limits: every grid point carries the same weight, not that of its
+    tributary area; the weight of floors displaced from the base (P-Delta of the storeys) adds no
+    moment. With overturning, nodes over the bearings have the rotary inertia of their share of the
+    base's mass over a depth of 0.8 m, about x and y. This length is fixed: it does not follow the
+    scale of the building. `moment_frame` has it as `base_depth`. Without a plan one bearing
+    represents all: only the sum of their axial forces is known, and checks that need them are not
+    evaluated.
 
     Examples
     --------
@@ -182,7 +182,7 @@ def shear_building(
 
 
 class _Stick(NamedTuple):
-    # The frame under construction, its grid of bearings, whether it tilts, and where masses stand.
+    # The frame under construction, its grid of bearings, tilting or not, and places of masses.
     frame: Frame
     grid: GridPlan | None
     tilts: bool
@@ -267,7 +267,7 @@ def _add_storey(
 
 
 def _offset(grid: GridPlan | None, eccentricity: tuple[float, float]) -> tuple[float, float]:
-    # Of the masses from the middle of a plan [m].
+    # Distance of the masses from the middle of a plan [m].
     shares = [
         require_between(
             "shear_building: eccentricity [-]",

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from frames.frame import Frame
 
 VERTICAL_PERIOD = 0.05
-"""Period of vertical vibration that fixes a stick's stiffness where none is given [s]."""
+"""Default period of vertical vibration that fixes a stick's stiffness [s]."""
 
 _CLAMPED = 22.3733
 """Frequency of a beam held at both ends, over sqrt(EI / (m L^4)): cos(x) cosh(x) = 1, x^2."""
@@ -37,10 +37,10 @@ class GridPlan(NamedTuple):
 
 
 def default_bending(plan: GridPlan, mass: float) -> tuple[float, float]:
-    """Return the bending stiffness of the beams along x and y that a stick's base gets by default.
+    """Return the default bending stiffness of a stick's base beams along x and y.
 
-    Beams of all levels bend alike where columns hardly shorten, so that one beam on each grid line
-    stands for those of all levels. Each of its spans, held at both ends, vibrates with a period of
+    Beams of all levels bend equally if columns hardly shorten, so that one beam on each grid line
+    represents those of all levels. Each of its spans, held at both ends, vibrates with a period of
     0.05 s under its share of the mass of all levels, if the beams along one axis carry all of it.
     """
     square = (2.0 * math.pi / (_CLAMPED * VERTICAL_PERIOD)) ** 2
@@ -61,13 +61,13 @@ def add_tilting_base(
     column: float,
     floors: list[str],
 ) -> None:
-    """Let base and floors of a stick tilt together on a base that bends between its bearings.
+    """Add a base that bends between its bearings, with floors that tilt with it, to a stick.
 
     The foot of the stick follows the plane that fits the nodes over the bearings best, which
-    distributes its force and moments to them as a rigid base does, M x_i / sum(x^2). What lies off
-    the plane is resisted by the beams on the grid lines, whose ends the columns of the first storey
-    hold against turning. Floors tilt as the foot does: the stick does not bend, and shears times
-    heights reach the base.
+    distributes its force and moments to them as a rigid base does, M x_i / sum(x^2). The beams on
+    the grid lines resist deviations from the plane; the columns of the first storey hold their ends
+    against rotation. Floors tilt with the foot: the stick does not bend, and shears times heights
+    reach the base.
     """
     total = sum(mass[0] for mass in frame.masses.values())
     given = default_bending(plan, total) if bending is None else bending

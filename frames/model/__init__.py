@@ -1,1 +1,1 @@
-"""What stands on the bearings, as the engineer describes it."""
+"""The structure above the bearings, as the engineer describes it."""

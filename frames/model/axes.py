@@ -1,4 +1,4 @@
-"""Local axes of members and the turning of vectors and matrices; faces of what stands in plan.
+"""Local axes of members, rotation of vectors and matrices; faces of a plan.
 
 Local x runs from node i to node j; local z lies in the plane of x and the `up` vector, on the side
 of `up`; y = z x x completes the right-handed set. By default `up` is global Z, for vertical
@@ -140,7 +140,7 @@ def _require_plane(
 
 
 def _meet(points: Mapping[str, Point], first: Sequence[str], second: Sequence[str]) -> bool:
-    # Whether two beams share more than an end.
+    # True if two beams share more than an end.
     (a, b), (c, d) = ([points[name] for name in edge] for edge in (first, second))
     shared = set(first) & set(second)
     if len(shared) == 2:
@@ -173,7 +173,7 @@ def faces_of(
     around: Mapping[str, Iterable[str]],
     order: Callable[[list[tuple[str, str]]], list[tuple[str, str]]] = list,
 ) -> list[list[str]]:
-    """Return the bounded faces of a plane graph, anticlockwise; what hangs free encloses nothing.
+    """Return the bounded faces of a plane graph, anticlockwise; free ends enclose nothing.
 
     Each side of each edge is walked once, turning as far to the left as there is. `order` says
     with which edges walks begin.

@@ -118,8 +118,8 @@ class FrameBuilder(FrameLoader):
     def add_spring(self, name: str, i: str, j: str, stiffness: Sequence[float]) -> None:
         """Add a linear 6-component spring between two nodes, in global axes.
 
-        The spring sits at the position of node j; where the nodes are apart, a rigid lever joins
-        it to node i, so that rigid motions of both nodes are free of force.
+        The spring is at the position of node j; if the nodes are apart, a rigid lever joins it to
+        node i, so that rigid motions of both nodes are free of force.
 
         Parameters
         ----------
@@ -174,15 +174,15 @@ class FrameBuilder(FrameLoader):
             Symmetric matrices [N/m, N, N m] and [kg, kg m, kg m2]; the geometric stiffness
             included.
         damping : array_like or sparse, (6 n, 6 n), optional
-            Symmetric damping [N s/m, N s, N m s] of the motion relative to the ground. What
-            `set_damping` asks for acts besides.
+            Symmetric damping [N s/m, N s, N m s] of the motion relative to the ground. That of
+            `set_damping` acts in addition.
         load : array_like, (6 n,), optional
             Permanent forces and moments [N, N m], its weight among them: its mass does not weigh
             by itself.
         equations : array_like or sparse, (m, 6 n), optional
             Ties of its displacements, ``equations @ u = 0``.
         notes : sequence of str
-            What whoever reads the results should know of where it came from.
+            Remarks on its origin for readers of the results.
         elements : PartElements, optional
             Line elements that are in the matrices already: how the forces in them follow from
             displacements (`frames.model.superelement`), so that results have them with those of
@@ -245,7 +245,7 @@ class FrameBuilder(FrameLoader):
         Raises
         ------
         ModelError
-            If a name is unknown or taken, or the nodes are not where the bearing needs them.
+            If a name is unknown or taken, or the nodes are not at the bearing's ends.
         """
         new_name(name, self._bearings, "bearing")
         require_two_nodes(self._nodes, i, j, f'bearing "{name}"')

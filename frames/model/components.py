@@ -1,4 +1,4 @@
-"""Records of what a frame is made of; `frames.frame.Frame` checks and creates them."""
+"""Records of a frame's parts; `frames.frame.Frame` checks and creates them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ DOFS = ("ux", "uy", "uz", "rx", "ry", "rz")
 """Names of a node's degrees of freedom: translations along and rotations about global x, y, z."""
 
 DEFAULT_CASE = "D"
-"""Case of permanent loads that are given none, and of what masses weigh: dead load."""
+"""Default case of permanent loads, and of the weight of masses: dead load."""
 
 Vector: TypeAlias = tuple[float, float, float]
 """Components along global x, y, z."""
@@ -49,8 +49,8 @@ class Node:
 class Member:
     """A beam-column from node `i` to node `j`; `up` fixes its local axes, None the default.
 
-    `releases` are the moments of `RELEASABLE` that it does not pass on at end i and at end j,
-    `offsets` the rigid vectors from its nodes to its ends, in global axes [m].
+    `releases` are the released moments of `RELEASABLE` at end i and at end j, `offsets` the rigid
+    vectors from its nodes to its ends, in global axes [m].
     """
 
     name: str
@@ -63,7 +63,7 @@ class Member:
 
     @property
     def has_offsets(self) -> bool:
-        """Whether an end lies away from its node."""
+        """True if an end is away from its node."""
         return any(any(offset) for offset in self.offsets)
 
 
@@ -92,8 +92,8 @@ class FloorLoad:
     """A load on a horizontal panel, carried by the members along its edges.
 
     `nodes` are its corners in order, `q` acts downwards [N/m2]. `span` is the unit vector in plan
-    of a panel that carries one way, None of one that carries to all edges; `mass` the share of the
-    load that is mass, None what the frame's mass source says of `case`.
+    of a panel that carries one way, None for all edges. `mass` is the share of the load that is
+    mass, None for that of the frame's mass source for `case`.
     """
 
     name: str
@@ -130,7 +130,7 @@ class Link:
 
 
 class HingedEnd(NamedTuple):
-    """A plastic hinge and where it is: its name, its member and the end, 0 for i and 1 for j."""
+    """A plastic hinge and its place: its name, its member and the end, 0 for i and 1 for j."""
 
     name: str
     member: str
@@ -181,7 +181,7 @@ class Level:
 
 
 def bearing_axial_stiffness(bearing: LIRBearing) -> float:
-    """Return the axial stiffness of a bearing, its own default where none was specified."""
+    """Return the axial stiffness of a bearing, by default its own [N/m]."""
     given = bearing.axial_stiffness
     return float(bearing.resolved()["axial_stiffness"] if given is None else given)
 

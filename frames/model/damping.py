@@ -1,4 +1,4 @@
-"""Damping of the structure, as data: what the engineer specifies, not yet a matrix."""
+"""Damping of the structure, as data: the engineer's input, not yet a matrix."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ class RayleighDamping:
 
     Notes
     -----
-    Between the two periods the damping is lower, outside them it is higher. Both parts act on
-    the motion relative to what follows the bearings quasi-statically (docs/theory.md): the
+    Between the two periods the damping is lower, outside them it is higher. Both parts act on the
+    motion relative to the part that follows the bearings quasi-statically (docs/theory.md): the
     isolation is not damped. Choose the periods for the structure above it.
 
     Examples
@@ -105,7 +105,7 @@ class ModalDamping:
 
 
 Damping: TypeAlias = RayleighDamping | ModalDamping
-"""What `Frame.set_damping` takes, besides None."""
+"""Argument of `Frame.set_damping`, besides None."""
 
 
 def _ratio(value: float, what: str) -> float:

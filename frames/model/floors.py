@@ -25,7 +25,7 @@ _AXES = {"x": (1.0, 0.0), "y": (0.0, 1.0)}
 
 
 class PanelLoads(NamedTuple):
-    """What a panel's load comes to."""
+    """Loads of a panel on members and nodes."""
 
     members: list[tuple[str, TaperedLoad]]  # loads along members
     # (6,) on their rigid end zones, as forces and moments on the nodes [N, N m]
@@ -91,7 +91,7 @@ def _plan(nodes: Mapping[str, Node], chosen: Sequence[str]) -> FloatArray:
 def _chain(
     nodes: Mapping[str, Node], around: Around, edge: tuple[str, str], name: str
 ) -> list[_Bay]:
-    # The members from corner to corner, each going on where the one before ends.
+    # The members from corner to corner, each continuing the one before.
     origin = np.array(nodes[edge[0]].position)
     way = np.array(nodes[edge[1]].position) - origin
     length = float(np.linalg.norm(way))
@@ -135,7 +135,7 @@ def _chain(
 def _put(
     nodes: Mapping[str, Node], bay: _Bay, pieces: Sequence[Piece], load: FloorLoad, to: PanelLoads
 ) -> None:
-    # Cuts what an edge carries to one member: on the length between its ends, and beyond.
+    # Load of an edge on one member: on the length between its ends, and beyond.
     member, sign = bay.member, 1.0 if bay.j > bay.i else -1.0
     first, second = (np.array(nodes[node].position) for node in (member.i, member.j))
     way = (second - first) / np.linalg.norm(second - first)
@@ -167,7 +167,7 @@ def _put(
 
 
 def _resultant(a: float, near: float, b: float, far: float) -> tuple[float, float]:
-    # Of a linear load from a to b: its sum, and where it acts.
+    # Sum of a linear load from a to b, and its place.
     force = 0.5 * (near + far) * (b - a)
     return force, a + (b - a) * (near + 2.0 * far) / (3.0 * (near + far)) if force else a
 
@@ -208,7 +208,7 @@ def turning(corners: FloatArray, owner: str) -> float:
 
 
 def nearest_edges(corners: FloatArray) -> list[list[Piece]]:
-    r"""Return what each edge carries where every point of a panel goes to the nearest edge.
+    r"""Return the load of each edge if every point of a panel goes to the nearest edge.
 
     Over the point s of an edge with the inward normal n reaches the depth
 
@@ -227,7 +227,7 @@ def nearest_edges(corners: FloatArray) -> list[list[Piece]]:
     found = []
     for e in range(len(corners)):
         against = 1.0 - inward @ inward[e]
-        others = against > _FLAT  # edges on the same line take their own part of it
+        others = against > _FLAT  # edges on the same line carry their own part
         away = (inward * (corners[e] - corners)).sum(axis=1)[others] / against[others]
         slope = (inward @ along[e])[others] / against[others]
         places = {0.0, float(length[e])}
@@ -241,7 +241,7 @@ def nearest_edges(corners: FloatArray) -> list[list[Piece]]:
 
 
 def one_way(corners: FloatArray, span: FloatArray) -> list[list[Piece]]:
-    """Return what each edge carries where strips along `span` rest on the edges at their ends.
+    """Return the load of each edge if strips along `span` rest on the edges at their ends.
 
     Shapes: corners (n, 2), span (2,), result (n,).
     """

@@ -1,4 +1,4 @@
-"""What a frame holds, read-only for those who analyse it; `Frame` adds the verbs."""
+"""Data of a frame, read-only for analyses; `Frame` adds the operations."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class FrameData:
         self._levels: dict[str, Level] = {}
         self._fixed: dict[str, frozenset[str]] = {}
         self._masses: dict[str, FloatArray] = {}
-        self._weightless: dict[str, FloatArray] = {}  # of the masses, what does not weigh
+        self._weightless: dict[str, FloatArray] = {}  # masses without weight
         self._loads: dict[str, dict[str, FloatArray]] = {}  # by node and case; never changed within
         self._uniform_loads: dict[str, dict[str, FloatArray]] = {}
         self._tapered_loads: dict[str, tuple[TaperedLoad, ...]] = {}
@@ -75,7 +75,7 @@ class FrameData:
         self._imported: object | None = None  # the account of an import
 
     def __getstate__(self) -> dict[str, Any]:
-        # dicts of its own, so that what is added to a copy is not added to the original
+        # dicts of its own, so that additions to a copy are not in the original
         return {k: dict(v) if isinstance(v, dict) else v for k, v in vars(self).items()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -193,12 +193,12 @@ class FrameData:
 
     @property
     def weightless_masses(self) -> Mapping[str, FloatArray]:
-        """Those of the lumped masses that do not weigh, by node, (6,) each."""
+        """Lumped masses without weight, by node, (6,) each."""
         return MappingProxyType(self._weightless)
 
     @property
     def weight_factor(self) -> float:
-        """By what the weight of masses counts [-]: 1, or that of a load combination."""
+        """Factor on the weight of masses [-]: 1, or that of a load combination."""
         return self._weight_factor
 
     @property

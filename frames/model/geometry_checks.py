@@ -1,4 +1,4 @@
-"""Where the parts of a frame may be: nodes that exist and differ, planes, bearings, members."""
+"""Checks of places in a frame: nodes that exist and differ, planes, bearings, members."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def member_up(
     up: Sequence[float] | None,
     offsets: tuple[Vector, Vector],
 ) -> Vector | None:
-    """Return `up` as a member keeps it, or raise where it has no length or no local axes."""
+    """Return `up` for a member, or raise if it has no length or no local axes."""
     first, second = nodes[i].position, nodes[j].position
     start, end = tuple(map(add, first, offsets[0])), tuple(map(add, second, offsets[1]))
     length = math.dist(start, end)
@@ -171,7 +171,7 @@ def member_span(nodes: Nodes, member: Member, a: float, b: float | None) -> tupl
 
 
 def refuse_shared(name: str, nodes: tuple[str, ...], others: Mapping[str, Diaphragm]) -> None:
-    """Raise where a node of a new diaphragm belongs to another one."""
+    """Raise if a node of a new diaphragm belongs to another one."""
     for other in others.values():
         shared = sorted(set(nodes) & set(other.nodes))
         if shared:

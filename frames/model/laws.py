@@ -1,8 +1,8 @@
-"""Laws of force and deformation for nonlinear links: what `Frame.add_link` takes.
+"""Laws of force and deformation for nonlinear links: input of `Frame.add_link`.
 
-A link has one deformation d, positive in tension or along its direction, and one force f. Laws
-with an elastic stiffness belong to the structure and carry permanent loads; the others (dampers,
-stops, ties) are put in afterwards: their deformation counts from the state under permanent loads.
+A link has one deformation d, positive in tension or along its direction, and one force f. Laws with
+an elastic stiffness belong to the structure and carry permanent loads; the others (dampers, stops,
+ties) are added afterwards: their deformation counts from the state under permanent loads.
 """
 
 from __future__ import annotations
@@ -69,9 +69,9 @@ class Pinching(_Checked):
     slip : float
         Largest share zeta_s of the stiffness that slip takes away, in [0, 1).
     rate : float
-        How fast it grows with the energy dissipated, p.
+        Rate of its growth with the dissipated energy, p.
     place : float
-        Force over the largest one where pinching is deepest, q.
+        Force over the largest one at the deepest pinching, q.
     width : float
         Spread psi of the pinched part, of the largest force.
     spreading : float
@@ -153,7 +153,7 @@ class BoucWen(_Checked):
 
 @dataclass(frozen=True, kw_only=True)
 class Tie(_Checked):
-    """A slender brace, rod or cable: it pulls only, yields, and is slack by what it yielded.
+    """A slender brace, rod or cable: it pulls only, yields, and is slack by its plastic strain.
 
     Attributes
     ----------
@@ -194,9 +194,9 @@ class ViscousDamper(_Checked):
     exponent : float
         [-] in [0.1, 2]: 1 is linear; devices have 0.15 to 1.
     stiffness : float
-        Of brace, clevis and fluid in series [N/m]; infinity for none.
+        Stiffness of brace, clevis and fluid in series [N/m]; infinity for none.
     linear_below : float
-        Speed about which the force turns over smoothly where the exponent is below 1 [m/s].
+        Speed below which the force is smoothed if the exponent is below 1 [m/s].
 
     Examples
     --------
@@ -252,9 +252,9 @@ class Gap(_Checked):
         restitution : float
             Speed after over speed before the impact [-], in [0.15, 1].
         stiffness : float
-            Of the stop [N/m].
+            Stiffness of the stop [N/m].
         mass : float
-            Of what runs into it, against a fixed wall [kg].
+            Mass of the body that hits it, against a fixed wall [kg].
 
         Returns
         -------
@@ -338,7 +338,7 @@ class PlasticHinge(_Checked):
     Attributes
     ----------
     moment_y, moment_z : float
-        Plastic moments about local y and z [N m]; infinity where it does not yield.
+        Plastic moments about local y and z [N m]; infinity if it does not yield.
     axial : float
         Axial force from `axial_centre` at which no moment is left [N]; infinity: no interaction.
     axial_centre : float
@@ -394,5 +394,5 @@ LAWS = (Bilinear, BoucWen, Tie, ViscousDamper, Gap, HertzGap)
 
 
 def elastic_stiffness(law: Law) -> float:
-    """Return the stiffness that a link has in the elastic structure; 0 of what is put in later."""
+    """Return the stiffness of a link in the elastic structure [N/m]; 0 if it is added later."""
     return law.stiffness if isinstance(law, Bilinear | BoucWen) else 0.0

@@ -26,17 +26,17 @@ if TYPE_CHECKING:
 def isolator_combinations(s_ms: float = 0.0) -> dict[str, dict[str, float]]:
     r"""Return the gravity parts of the vertical load combinations for isolators of ASCE 7-22.
 
-    Average 1.0 D + 0.5 L; maximum 1.2 D + E_v + L + 0.15 S; minimum 0.9 D - E_v, where
-    :math:`E_v = 0.2 S_{MS} D`. The horizontal earthquake is what the time history adds.
-    Snow is that of ASCE 7-22, whose loads are of strength level, with its factor of sec. 2.3.6;
-    ASCE 7-16 has 0.2 on its own, lower snow loads: give such factors to `Frame.combined`.
-    Source: ASCE/SEI 7-22, sec. 17.2.7.1; compare with the edition that you design by.
+    Average 1.0 D + 0.5 L; maximum 1.2 D + E_v + L + 0.15 S; minimum 0.9 D - E_v, where :math:`E_v =
+    0.2 S_{MS} D`. The time history adds the horizontal earthquake. Snow is that of ASCE 7-22, whose
+    loads are of strength level, with its factor of sec. 2.3.6; ASCE 7-16 has 0.2 on its own, lower
+    snow loads: give such factors to `Frame.combined`. Source: ASCE/SEI 7-22, sec. 17.2.7.1; compare
+    with the edition that you design by.
 
     Parameters
     ----------
     s_ms : float
-        Spectral acceleration S_MS at short periods [g], >= 0; 0 leaves E_v out, as where the
-        vertical component is part of the ground motion.
+        Spectral acceleration S_MS at short periods [g], >= 0; 0 leaves E_v out, for motions with a
+        vertical component.
 
     Returns
     -------
@@ -77,7 +77,7 @@ def combination(frame: FrameData, factors: Mapping[str, float], weight: str) -> 
 
 
 def factor_loads(frame: FrameData, factors: Mapping[str, float], weight: str) -> None:
-    """Multiply the permanent loads of a frame and what its masses weigh; masses stay."""
+    """Multiply the permanent loads of a frame and the weight of its masses; masses stay."""
     for node, mass in load_masses(frame, applied_loads(frame)).items():
         both = np.array([mass] * 3 + [0.0] * 3)
         for group in (frame._masses, frame._weightless):
@@ -155,7 +155,7 @@ class NodeLoad(NamedTuple):
 
 
 class SpanLoad(NamedTuple):
-    """A load along a member, and the share of it that is mass [-]."""
+    """A load along a member, and its share that is mass [-]."""
 
     member: str
     load: TaperedLoad
@@ -163,7 +163,7 @@ class SpanLoad(NamedTuple):
 
 
 class AppliedLoads(NamedTuple):
-    """What floor panels and tapered loads come to."""
+    """Sums of the loads of floor panels and tapered loads."""
 
     nodes: list[NodeLoad]  # of floor panels, on the rigid end zones of members
     # of floor panels and tapered loads; uniform loads are in `Frame.uniform_loads`
@@ -182,11 +182,11 @@ def applied_loads(frame: FrameData) -> AppliedLoads:
     return found
 
 
-_KNOWN: deque[tuple[list[object], list[PanelLoads]]] = deque(maxlen=8)  # with what they come of
+_KNOWN: deque[tuple[list[object], list[PanelLoads]]] = deque(maxlen=8)  # results with their inputs
 
 
 def _of_panels(frame: FrameData) -> list[PanelLoads]:
-    # Kept from before if nothing changed: what a frame holds is frozen.
+    # Results of an earlier call if nothing changed: parts of a frame are frozen.
     parts: list[object] = [*frame.nodes.values(), *frame.members.values()]
     parts += frame.floor_loads.values()
     for known, found in tuple(_KNOWN):

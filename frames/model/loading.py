@@ -70,15 +70,15 @@ class FrameLoader(FrameData):
             self._weightless[node] = frozen(self._weightless.get(node, np.zeros(6)) + given)
 
     def set_mass_source(self, shares: Mapping[str, float] | None) -> None:
-        """Say which part of the permanent loads is mass, by case; it replaces what was said before.
+        """Set the share of the permanent loads that is mass, by case; it replaces earlier ones.
 
         Parameters
         ----------
         shares : mapping or None
-            Share of each case [-], >= 0, as in ``{"D": 1.0, "L": 0.25}``; cases that are not
-            named, and all for None, make no mass. The vertical part of a load over gravity times
-            its share is mass in all three directions: at its node; of a load along a member at
-            the member's ends by the rule of the lever. It weighs nothing besides the load.
+            Share of each case [-], >= 0, as in ``{"D": 1.0, "L": 0.25}``; cases that are not named,
+            and all for None, make no mass. The vertical part of a load over gravity times its share
+            is mass in all three directions: at its node; of a load along a member at the member's
+            ends by the rule of the lever. The mass has no weight besides the load.
 
         Raises
         ------
@@ -168,10 +168,9 @@ class FrameLoader(FrameData):
         member : str
             Name of the member.
         q_start, q_end : sequence of 3 floats
-            Load per unit length along global x, y, z where it begins and where it ends [N/m].
+            Load per unit length along global x, y, z at its begin and end [N/m].
         a, b : float
-            Where it begins and ends: distances from the member's end i along its axis [m]; None is
-            its end j.
+            Begin and end: distances from the member's end i along its axis [m]; None is its end j.
         case : str
             Load case, for `combined`.
 
@@ -208,7 +207,7 @@ class FrameLoader(FrameData):
         mass: float | None = None,
         case: str = DEFAULT_CASE,
     ) -> None:
-        """Put a load on a floor panel; the members along its edges carry it.
+        """Add a load to a floor panel; the members along its edges carry it.
 
         Parameters
         ----------
@@ -224,8 +223,8 @@ class FrameLoader(FrameData):
             to the edges at its two ends. None: two ways, every point to the nearest edge, which
             on a rectangle makes triangles and trapezoids under 45 degrees.
         mass : float, optional
-            Share of the load that is mass [-], as in `set_mass_source`, which it overrides; it
-            weighs nothing besides the load.
+            Share of the load that is mass [-], as in `set_mass_source`, which it overrides; the
+            mass has no weight besides the load.
         case : str
             Load case, for `combined`.
 
@@ -237,7 +236,7 @@ class FrameLoader(FrameData):
 
         Notes
         -----
-        Sum and moments of what the members get are those of the load on the panel.
+        Sum and moments of the members' loads are those of the load on the panel.
         """
         new_name(name, self._floor_loads, "floor load")
         require_positive(f'q [N/m2] of floor load "{name}"', q, error=ModelError)
@@ -249,14 +248,14 @@ class FrameLoader(FrameData):
                 raise ModelError(message)
         corners, direction = floor_panel(self._nodes, name, nodes, span)
         load = FloorLoad(name, corners, float(q), direction, share, new_name(case, (), "load case"))
-        panel_loads(self._nodes, members_at(self._members), load)  # refuses what no member carries
+        panel_loads(self._nodes, members_at(self._members), load)  # raises if no member carries it
         self._floor_loads[name] = load
 
 
 def _accumulate(
     group: dict[str, dict[str, FloatArray]], key: str, case: str, values: FloatArray
 ) -> None:
-    # A new inner dict each time: copies of a frame share what it was.
+    # A new inner dict each time: copies of a frame share the old one.
     new_name(case, (), "load case")
     cases = group.get(key, {})
     group[key] = {**cases, case: frozen(cases.get(case, np.zeros(len(values))) + values)}

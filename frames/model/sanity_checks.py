@@ -1,7 +1,7 @@
-"""Whether the numbers of a frame can be those of a structure, before anything is computed.
+"""Plausibility of a frame's numbers, before any computation.
 
 The bounds are wide: models at a twentieth of the scale, towers, bridges and rigid links of any
-section pass without a word. What lies beyond was probably given in another unit.
+section pass without a warning. Values beyond them are probably in another unit.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def refuse_extent(frame: FrameData) -> None:
 
 
 def sanity_warnings(frame: FrameData) -> tuple[str, ...]:
-    """Return what is strange about a frame, a sentence each; nothing for usual ones."""
+    """Return the unusual values of a frame, a sentence each; nothing for usual ones."""
     return (
         *_of_gravity(frame),
         *_of_members(frame),

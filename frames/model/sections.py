@@ -43,7 +43,7 @@ class Section(SectionConstants):
     elastic_modulus, shear_modulus : float
         Moduli of the material [Pa], > 0.
     density : float
-        Mass density [kg/m3], >= 0. Set it to 0 where a floor mass already contains the members.
+        Mass density [kg/m3], >= 0. Set it to 0 if a floor mass already contains the members.
     shear_area_y, shear_area_z : float
         Areas that carry the shear force along local y and z [m2], > 0. Infinity, the default,
         leaves the shear deformation out (Euler-Bernoulli).
@@ -74,7 +74,7 @@ class Section(SectionConstants):
         """Build a rectangular hollow section of constant wall thickness.
 
         The torsion constant is Bredt's for the closed wall line; the shear areas are those of the
-        two walls parallel to the shear force, taken between the centre lines of the other two.
+        two walls parallel to the shear force, measured between the centre lines of the other two.
 
         Parameters
         ----------
@@ -232,7 +232,7 @@ class Section(SectionConstants):
         Parameters
         ----------
         name : str
-            Of the series IPE, HEA, HEB and HEM: "HEB 300", "HE 300 B", "IPE 270".
+            Name in the series IPE, HEA, HEB and HEM: "HEB 300", "HE 300 B", "IPE 270".
         elastic_modulus, poisson_ratio, density : float
             Material [Pa], [-], [kg/m3]; steel by default.
 
@@ -320,7 +320,7 @@ class Section(SectionConstants):
         diameter : float
             Outer diameter [m].
         thickness : float, optional
-            Of the wall [m], less than half the diameter; solid if None.
+            Thickness of the wall [m], less than half the diameter; solid if None.
         elastic_modulus, poisson_ratio, density : float
             Material [Pa], [-], [kg/m3]; steel by default.
 

@@ -113,7 +113,7 @@ _DENSITY = number("kg/m3", "[0, inf)", remedy="give kg/m3, or 0 for a member wit
 
 @dataclass(frozen=True)
 class SectionConstants:
-    """What `Section` is made of; its docstring has the meaning of each."""
+    """Fields of `Section`; its docstring has the meaning of each."""
 
     area: float = field(metadata=number("m2", "(0, inf)", remedy=_NEEDED))
     inertia_y: float = field(metadata=_INERTIA)
@@ -202,7 +202,7 @@ class SectionConstants:
 
 
 SERIES = ("IPE", "HEA", "HEB", "HEM")
-"""Series with parallel flanges that `Section.catalogue` knows."""
+"""Series with parallel flanges in `Section.catalogue`."""
 
 _FILLET_AREA = 1.0 - math.pi / 4.0  # r^2, of the part between two walls and a quarter circle
 _FILLET_PLACE = (10.0 - 3.0 * math.pi) / (12.0 - 3.0 * math.pi)  # r, of its centroid from a wall

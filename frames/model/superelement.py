@@ -23,9 +23,9 @@ class WithoutForces(NamedTuple):
     kind: str
     """Their class, "ShellMITC4"."""
     number: int
-    """How many."""
+    """Number of elements."""
     which: str
-    """Their tags or names, the first of them where they are many."""
+    """Their tags or names, the first of them if there are many."""
     why: str
     faces: tuple[tuple[str, ...], ...] = ()
     """Nodes around each of those with three or four, as figures draw them."""
@@ -35,11 +35,11 @@ class ShellElement(NamedTuple):
     """A shell element of one isotropic material, without mass and load."""
 
     area: str
-    """What it is a part of, "W1-Story2"."""
+    """Name of its area, "W1-Story2"."""
     nodes: tuple[str, ...]
     """Three or four nodes in order."""
     elastic_modulus: float
-    """Of its membrane [Pa]."""
+    """Elastic modulus of its membrane [Pa]."""
     poisson_ratio: float
     """[-]."""
     thickness: float
@@ -50,7 +50,7 @@ class ShellElement(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PartElements:
-    """Straight elements between two nodes of a superelement: a part of it, whose forces are told.
+    """Straight elements between two nodes of a superelement, a part with known forces.
 
     Attributes
     ----------
@@ -62,16 +62,17 @@ class PartElements:
         Forces on both ends, positive along and about the element's local axes, per displacement of
         nodes i and j in global axes [N/m, N, N m].
     rest : ndarray, (n, 12)
-        The same forces where the superelement's displacements are nought [N, N m].
+        The same forces at zero displacements of the superelement [N, N m].
     middle : ndarray, (n, 6)
-        What loads along the element add in its middle to the mean of both ends [N, N m].
+        Forces from loads along the element in its middle, beyond the mean of both ends [N, N m].
     without : tuple of WithoutForces
-        What else the superelement holds.
+        Other elements of the superelement.
     shells : tuple of ShellElement
-        Shells that are all of the superelement's stiffness; none where they are not, or not known.
+        Shells that make up all of the superelement's stiffness; none if they do not, or are
+        unknown.
     strains : mapping of str to (ndarray, ndarray)
-        Of elements that may leave their stiffness, by name: strains over those up to which they
-        keep it, (k, 3) at ends i and j over N [N], My and Mz [N m].
+        For elements that may yield, by name: strains over their elastic limits, (k, 3) at ends i
+        and j over N [N], My and Mz [N m].
     """
 
     names: tuple[str, ...] = ()
@@ -91,7 +92,7 @@ class PartElements:
 def no_elements(
     without: Iterable[WithoutForces] = (), shells: Iterable[ShellElement] = ()
 ) -> PartElements:
-    """Return a superelement's elements where no line element is known by itself."""
+    """Return a superelement's elements if no line element is known by itself."""
     return PartElements(
         rows=np.zeros((0, 12, 12)),
         rest=np.zeros((0, 12)),
@@ -124,7 +125,7 @@ class ElementTable(NamedTuple):
 def element_table(
     parts: Iterable[PartElements], index: dict[str, int], members: Iterable[str]
 ) -> ElementTable:
-    """Put the line elements of superelements one after the other."""
+    """Join the line elements of superelements in one table."""
     chosen = [no_elements(), *parts]
     names = [name for part in chosen for name in part.names]
     taken = {*members}
@@ -296,7 +297,7 @@ def placed(parts: Iterable[Superelement], index: dict[str, int]) -> Placed:
 
 
 def lumped(mass: SparseMatrix) -> FloatArray:
-    """Return masses by node (n_nodes, 6): what a unit translation moves; diagonal of rotations."""
+    """Return masses by node (n_nodes, 6): translations by a unit motion; diagonal of rotations."""
     count = mass.shape[0] // 6
     found = mass.diagonal().reshape(count, 6).copy()
     for axis in range(3):

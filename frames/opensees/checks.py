@@ -1,4 +1,4 @@
-"""What of an OpenSees model cannot be imported, or should be known: refused, or named."""
+"""Features of an OpenSees model that cannot be imported, or need attention."""
 
 from __future__ import annotations
 
@@ -54,9 +54,9 @@ def changed_elements(
 ) -> list[tuple[ElementEntry, float]]:
     """Find elements whose stiffness is not their initial one.
 
-    Off the diagonal a stiffness matrix shows what joins two nodes. The change is measured in the
-    deformation that it affects most, relative to the initial stiffness in it. Those that share
-    their nodes are told together.
+    Off the diagonal a stiffness matrix shows the connection of two nodes. The change is measured in
+    the deformation that it affects most, relative to the initial stiffness in it. Elements that
+    share their nodes are reported together.
     """
     change = model.stiffness - model.initial
     at = {tag: place for place, tag in enumerate(model.tags)}
@@ -183,18 +183,18 @@ def refuse_leaning(system: System, initial: SparseMatrix) -> None:
     raise ModelError(message)
 
 
-_SPARE = 1e-10  # of the mean stiffness, so that what nothing holds does not stop the solution
+_SPARE = 1e-10  # of the mean stiffness, so that free displacements do not stop the solution
 
 
 def energy_shares(model: OpenSeesModel, tags: Collection[int], vertical: int) -> dict[int, float]:
-    """Find what share of the strain energy elements hold under loads in proportion to the masses.
+    """Return the elements' shares of strain energy under loads proportional to the masses [-].
 
     The compliance to a load changes by that share of the change of an element's stiffness:
     ``d(u' F) / (u' F) = -share dk / k``.
 
     In an element that is free of force in rigid motions the energy is a sum over pairs of its
-    nodes, ``-u_a' K_ab (u_b - R_ab u_a) / 2`` in both orders, R_ab the motion of node b that goes
-    with that of node a. So the blocks of the assembled stiffness are enough.
+    nodes, ``-u_a' K_ab (u_b - R_ab u_a) / 2`` in both orders; R_ab is the rigid motion of node b
+    with node a. So the blocks of the assembled stiffness are enough.
     """
     at = {tag: place for place, tag in enumerate(model.tags)}
     pairs: dict[tuple[int, int], list[int]] = {}

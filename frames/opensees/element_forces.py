@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 PREFIX = "element-"
-"""Of the names of elements, before their tags."""
+"""Prefix of the names of elements, before their tags."""
 
 _NO_LINE = "no beam, column or bar between two nodes"
 _LOADED = "loaded along it in a way that OpenSees does not show"
@@ -98,8 +98,9 @@ _FACES = {3, 4}
 """Numbers of nodes of shells and plates."""
 
 _SIZES = {3: 2, 4: 3, 5: 3, 6: 4}
-"""Numbers that OpenSees hands over of a load, by the tag of its class: uniform in the plane, at a
-point in the plane, uniform in space, at a point in space."""
+"""Count of the numbers that OpenSees returns for a load, by the tag of its class: uniform in the
+plane, at a point in the plane, uniform in space, at a point in space.
+"""
 
 _UNIFORM = (3, 5)
 _TURNED = 1e-2  # of the forces, by which loads that turn with their element may differ
@@ -137,7 +138,7 @@ def element_loads(ops: Any, ndm: int) -> dict[int, list[ElementLoad | None]]:
 
 
 def _load(numbers: Sequence[float], kind: int, ndm: int, factor: float) -> ElementLoad:
-    # OpenSees lists what is across the element before what is along it.
+    # OpenSees lists the load across the element before that along it.
     across, along = numbers[: ndm - 1], numbers[ndm - 1]
     y, z = (*across, 0.0)[:2]
     at = None if kind in _UNIFORM else numbers[ndm]
@@ -147,7 +148,7 @@ def _load(numbers: Sequence[float], kind: int, ndm: int, factor: float) -> Eleme
 def middle_of(
     loads: Sequence[ElementLoad | None], length: float, ends: FloatArray
 ) -> FloatArray | None:
-    """Return what loads of an element add in its middle to the mean of both ends.
+    """Return the forces of an element's loads in its middle, beyond the mean of both ends.
 
     Shapes: ends (12,), result (6,).
     """
@@ -177,10 +178,10 @@ _NONE = 1e-12  # of the largest stiffness of a section, that counts as none
 def strain_rows(
     ops: Any, printed: Printed, lines: Sequence[ElementEntry]
 ) -> dict[int, tuple[FloatArray, FloatArray]]:
-    """Return how far strains go at both ends of elements, by their forces there.
+    """Return strains over their limits at both ends of elements, by their forces there.
 
-    A strain is ``e_0 - y k_z + z k_y``, of the section's initial stiffness; what it is divided by
-    is the strain up to which the material keeps its stiffness (`Law.limit`).
+    A strain is ``e_0 - y k_z + z k_y``, of the section's initial stiffness; its divisor is the
+    strain up to which the material keeps its stiffness (`Law.limit`).
     """
     laws: dict[str, Law | None] = {}
 

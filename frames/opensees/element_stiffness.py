@@ -1,8 +1,8 @@
 """Stiffness of beams, columns and bars of an OpenSees model, element by element.
 
-Most elements tell the stiffness of their basic system: of a beam between hinges, which a coordinate
-transformation carries to the nodes. Of the others forces are read while nodes are moved one way at
-a time, each element beside one moved node; then all is put back.
+Most elements provide the stiffness of their basic system: of a beam between hinges, which a
+coordinate transformation carries to the nodes. For the others forces are read while nodes are moved
+in one direction at a time, each element beside one moved node; then all is restored.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Geometry(NamedTuple):
     put: FloatArray  # (12, 2 ndf), displacements of two nodes from the model's axes to the frame's
 
     def local(self) -> FloatArray:
-        """Return what turns displacements of two nodes to local axes, (n, 12, 12)."""
+        """Return the transformation of displacements of two nodes to local axes, (n, 12, 12)."""
         found = np.zeros((len(self.axes), 12, 12))
         for k in range(0, 12, 3):
             found[:, k : k + 3, k : k + 3] = self.axes
@@ -53,7 +53,7 @@ def geometry(
     printed: Printed,
     options: Options,
 ) -> Geometry:
-    """Return where elements lie, and how."""
+    """Return places and axes of elements."""
     ndm = model.coordinates.shape[1]
     axes, turn = turning(ndm, options.vertical)
     points = np.zeros((len(model.tags), 3))
@@ -135,8 +135,8 @@ def _of_basic(basic: FloatArray, length: float, axial: float) -> FloatArray:
 
 
 def _by_moving(ops: Any, model: OpenSeesModel, lines: Sequence[ElementEntry]) -> FloatArray:
-    # Stiffness (n, 2 ndf, 2 ndf), in axes and units of the model. Central differences make what is
-    # quadratic in the displacements (P-Delta) as exact as what is linear.
+    # Stiffness (n, 2 ndf, 2 ndf), in axes and units of the model. Central differences make
+    # quadratic terms in the displacements (P-Delta) as exact as linear ones.
     ndf, ndm = model.ndf, model.coordinates.shape[1]
     at = {tag: place for place, tag in enumerate(model.tags)}
     ends = np.array([element.nodes for element in lines])
@@ -180,7 +180,7 @@ def _not_joined(lines: Sequence[ElementEntry]) -> list[list[int]]:
 def apart_from_assembled(
     model: OpenSeesModel, lines: Sequence[ElementEntry], found: FloatArray, place: Geometry
 ) -> set[int]:
-    """Return places of elements whose stiffness is not what OpenSees assembles of them.
+    """Return places of elements whose stiffness differs from the one that OpenSees assembles.
 
     Shapes: found (n, 12, 12).
     """
@@ -213,7 +213,7 @@ def apart_from_assembled(
 
 
 def _alike(one: FloatArray, other: FloatArray, length: float) -> bool:
-    # Entry by entry: bending is soft beside what is axial.
+    # Entry by entry: bending is soft beside axial stiffness.
     size = np.array([*[1.0] * 3, *[1.0 / length] * 3])
     one, other = (np.outer(size, size) * block for block in (one, other))
     rows, columns = (np.abs(other).max(axis=axis) for axis in (1, 0))

@@ -52,7 +52,7 @@ F = TypeVar("F", bound=Frame)
 
 
 def imported(kind: type[F], options: Options, name: str) -> F:
-    """Return OpenSees' current model as a frame on bearings, and warn of what should be known."""
+    """Return OpenSees' current model as a frame on bearings, with warnings."""
     _check_options(options)
     frame = kind(name, STANDARD_GRAVITY if options.gravity is None else options.gravity)
     model = read_model()
@@ -153,8 +153,9 @@ def _turned(model: OpenSeesModel, options: Options) -> Structure:
 
 
 def _released(structure: Structure, options: Options) -> Structure:
-    # Base nodes: translations and the rotation about the vertical free, the others as asked for;
-    # what is held at every node (a plane model in space) stays. Nodes that nothing reaches go.
+    # Base nodes: translations and the rotation about the vertical free, the others by the option; a
+    # DOF held at every node (a plane model in space) stays held. Nodes without elements are
+    # removed.
     bases = [structure.tags.index(tag) for tag in options.bases]
     parts = [*structure.matrices.values(), structure.equations]
     reached = np.sum([np.asarray(abs(part).sum(axis=0)) for part in parts], axis=0)

@@ -69,16 +69,16 @@ class Printed:
 
 
 class Law(NamedTuple):
-    """How a uniaxial material answers to a slow pull and push from its unloaded state."""
+    """Response of a uniaxial material to a slow pull and push from its unloaded state."""
 
     kind: str
     """Type in OpenSees."""
     stiffness: float
     """At rest: the larger one of pull and push."""
     is_linear: bool
-    """Whether the force is proportional to deformation (and speed)."""
+    """True if the force is proportional to deformation (and speed)."""
     one_sided: str
-    """How pull differs from push, or what closes; empty if nothing does."""
+    """Difference of pull and push, or a closing gap; empty if there is none."""
     limit: float
     """Deformation up to which its secant stiffness is that at rest within `DEPARTURE`."""
     dashpot: float
@@ -86,7 +86,7 @@ class Law(NamedTuple):
 
 
 def printed_model(ops: Any) -> Printed:
-    """Read what OpenSees prints of its model."""
+    """Read the printed model of OpenSees."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "model.json"
         ops.printModel("-JSON", "-file", str(path))
@@ -113,7 +113,7 @@ def _part(text: str, word: str) -> str:
 
 
 def _entries(text: str, word: str) -> dict[str, dict[str, Any]]:
-    # Some classes print what is no JSON among the others: each entry is read for itself.
+    # Some classes print invalid JSON among the others: each entry is read by itself.
     part, decoder, found = _part(text, word), json.JSONDecoder(), {}
     for match in _ENTRY.finditer(part):
         with contextlib.suppress(json.JSONDecodeError):
@@ -136,11 +136,11 @@ def _plain(part: str) -> dict[str, dict[str, Any]]:
 
 
 def law_of(ops: Any, printed: Printed, tag: str, span: float) -> Law | None:
-    """Find how a uniaxial material answers.
+    """Return the law of a uniaxial material.
 
-    OpenSees tries materials on the original, from which later elements are copied. So the trial
-    is made on a copy, which stays in the model under a tag from 2,147,000,000 on; no element has
-    it. Elastic materials are judged by what is printed of them.
+    OpenSees tries materials on the original, from which later elements are copied. So the trial is
+    made on a copy, which stays in the model under a tag from 2,147,000,000 on; no element has it.
+    For elastic materials the printed values are used.
     """
     entry = printed.uniaxial.get(tag)
     if entry is None:
@@ -198,10 +198,10 @@ _DIRECTIONS = {"P": 0, "Vy": 1, "Vz": 2, "T": 3, "My": 4, "Mz": 5}
 def with_viscous_springs(ops: Any, model: OpenSeesModel) -> tuple[SparseMatrix, list[str]]:
     """Return the damping of a model with the viscous part of springs and bars as in their forces.
 
-    A ``zeroLength`` with ``-doRayleigh 1`` puts Rayleigh damping in place of its materials' in
-    the damping matrix, while its force has both. A ``corotTruss`` has four times its force's part
-    there, for its length is counted twice (openseespy 3.7 and 3.8). What a pair of nodes has in the
-    matrix is either the materials' own, or this and a part in proportion to the stiffness.
+    A ``zeroLength`` with ``-doRayleigh 1`` puts Rayleigh damping in place of its materials' in the
+    damping matrix, while its force has both. A ``corotTruss`` has four times its force's part
+    there, because its length is counted twice (openseespy 3.7 and 3.8). The matrix of a pair of
+    nodes is either the materials' own, or this and a part in proportion to the stiffness.
     """
     springs = [element for element in model.elements if element.kind in _CLASSES]
     if not springs:
@@ -251,8 +251,8 @@ def with_viscous_springs(ops: Any, model: OpenSeesModel) -> tuple[SparseMatrix, 
 def _viscous(
     ops: Any, printed: Printed, model: OpenSeesModel, element: ElementEntry
 ) -> tuple[FloatArray, FloatArray]:
-    # Force over speed between its nodes, in the model's axes; and the same as the matrix has it
-    # where that is wrong.
+    # Force over speed between its nodes, in the model's axes; and the matrix entry if that is
+    # wrong.
     entry = printed.elements.get(str(element.tag), {})
     ndf = model.ndf
     if element.kind != _CLASSES[0]:
@@ -294,7 +294,7 @@ def _coefficient(ops: Any, tag: object) -> float:
 def _is_rayleigh(
     damping: FloatArray, model: OpenSeesModel, places: tuple[slice, slice], error: float
 ) -> bool:
-    # Whether what two nodes have is none, or a multiple of the stiffness between them.
+    # True if the damping of two nodes is zero, or a multiple of the stiffness between them.
     if np.linalg.norm(damping) <= error:
         return True
     for stiffness in (-model.stiffness[places].toarray(), -model.initial[places].toarray()):

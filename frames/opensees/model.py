@@ -1,11 +1,11 @@
-"""Reads the linear model that OpenSeesPy holds, as it stands, into arrays.
+"""Reader of OpenSeesPy's present linear model into arrays.
 
 The constraint handler 'Penalty' with the factor 0 leaves every displacement in the system of
-equations, the supported ones too, and adds nothing to it: the integrator 'GimmeMCK' then hands
-over mass, damping and stiffness of the whole unsupported model. With the factor 1 for constraints
-alone and nothing else, the same matrix is the sum of g g' over all constraint equations g' u = 0.
-The equations are numbered by an analysis that ends before its first step (a step of 0 s is
-refused by Newmark's method), so that nothing in the model moves and no recorder writes.
+equations, the supported ones too, and adds nothing to it. The integrator 'GimmeMCK' then returns
+mass, damping and stiffness of the whole unsupported model. With the factor 1 for constraints alone
+and nothing else, the same matrix is the sum of g g' over all constraint equations g' u = 0. The
+equations are numbered by an analysis that ends before its first step (Newmark's method refuses a
+step of 0 s), so that nothing in the model moves and no recorder writes.
 """
 
 from __future__ import annotations
@@ -53,15 +53,14 @@ class OpenSeesModel:
     """
 
     tags: tuple[int, ...]  # (n,), nodes
-    coordinates: FloatArray  # (n, ndm), where they are before the loads
+    coordinates: FloatArray  # (n, ndm), positions before the loads
     ndf: int  # displacements of a node
     mass: SparseMatrix  # (n ndf, n ndf), all matrices in the present state
     damping: SparseMatrix
     stiffness: SparseMatrix
     initial: SparseMatrix  # (n ndf, n ndf), stiffness of the elements before any load
-    fixed: BoolArray  # (n ndf,), what single-point constraints hold
-    # (m, n ndf), what multi-point constraints ask for, ``equations @ u = 0``; some may repeat
-    # others
+    fixed: BoolArray  # (n ndf,), displacements held by single-point constraints
+    # (m, n ndf), multi-point constraints, ``equations @ u = 0``; some may repeat others
     equations: SparseMatrix
     # (n ndf,), applied loads less resisting forces in the present state; minus the reactions at
     # supports
@@ -127,7 +126,7 @@ def read_initial(tags: Sequence[int]) -> SparseMatrix:
 
 
 def _shape(ops: Any, tags: tuple[int, ...]) -> int:
-    # Displacements of a node; refuses what is not of one of the known shapes.
+    # Displacements of a node; refuses unknown shapes.
     if not tags:
         message = (
             "OpenSeesPy holds no model in this process: build it (ops.model, ops.node, ...) before"

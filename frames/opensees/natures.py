@@ -1,4 +1,4 @@
-"""Which elements of an OpenSees model are linear, which are not, and which cannot be told."""
+"""Linear, nonlinear and undecidable elements of an OpenSees model."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LINEAR = (
     "ModElasticBeam2d",
     "ModElasticBeam3d",
 )
-"""Classes of elements that are linear whatever their material: only P-Delta changes them."""
+"""Classes of elements that are linear for any material: only P-Delta changes them."""
 
 SPRINGS = ("ZeroLength", "TwoNodeLink", "CoupledZeroLength")
 """Classes of elements whose uniaxial materials see displacements of nodes, not strains."""
@@ -54,17 +54,17 @@ _WRAPPERS = (
 
 
 class Nature(NamedTuple):
-    """What is known of an element."""
+    """Properties of an element."""
 
     element: ElementEntry
     is_known: bool
-    """Whether OpenSees tells all its laws."""
+    """True if OpenSees shows all its laws."""
     curved: tuple[Law, ...]
-    """Those that are not linear."""
+    """Its nonlinear laws."""
 
     @property
     def is_linear(self) -> bool:
-        """Whether nothing of it can leave its present stiffness."""
+        """True if nothing of it can leave its present stiffness."""
         return self.is_known and not self.curved
 
 
@@ -131,7 +131,7 @@ def _tags(entry: dict[str, Any], word: str) -> list[str]:
 
 
 def natures(ops: Any, model: OpenSeesModel) -> list[Nature]:
-    """Find what is known of all elements that are not linear by their class."""
+    """Return the properties of all elements that are not linear by their class."""
     others = [element for element in model.elements if element.kind not in LINEAR]
     if not others:
         return []
@@ -181,7 +181,7 @@ def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
 
 
 def told(found: list[Nature], shares: dict[int, float]) -> list[str]:
-    """Name elements that may leave their present stiffness, and what that is worth."""
+    """Return the elements that may leave their present stiffness, with their energy share."""
     groups: dict[tuple[str, str], list[Nature]] = {}
     for nature in found:
         if not nature.is_linear:

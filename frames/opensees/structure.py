@@ -1,4 +1,4 @@
-"""What a model of OpenSees is asked for and gives: its matrices, loads, masses and doubts."""
+"""Import of an OpenSees model: options, matrices, loads, masses and doubts."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Options:
-    """What `Frame.from_opensees` was asked for."""
+    """Options of `Frame.from_opensees`."""
 
     base_nodes: Sequence[int]
     bearing: LIRBearing | Mapping[int, LIRBearing]
@@ -48,7 +48,7 @@ class Options:
 
     @property
     def bases(self) -> tuple[int, ...]:
-        """Tags of the nodes that stand on bearings."""
+        """Tags of the nodes above bearings."""
         return tuple(self.bearings)
 
 
@@ -70,7 +70,7 @@ class Structure:
     coordinates: FloatArray
     matrices: dict[str, SparseMatrix]  # mass, damping, stiffness
     initial: SparseMatrix  # stiffness of the elements before any load
-    fixed: BoolArray  # (n, 6), true where held
+    fixed: BoolArray  # (n, 6), true if held
     present: BoolArray  # (n, 6), false for displacements that the model does not have
     equations: SparseMatrix
     load: FloatArray  # (6 n,)
@@ -83,7 +83,7 @@ _RATIO = (0.2, 5.0)  # weight over mass times gravity that raises no doubt about
 
 
 def permanent_load(structure: Structure, options: Options) -> tuple[FloatArray, list[str]]:
-    """Find what the bearings have to carry."""
+    """Return the load of the bearings."""
     count = len(structure.tags)
     units = [np.tile(np.eye(6)[axis], count) for axis in range(3)]
     mass = structure.matrices["mass"]
@@ -145,7 +145,7 @@ def rigid_damping(structure: Structure, options: Options) -> list[str]:
 
 
 def light_base(structure: Structure, options: Options) -> list[str]:
-    """Note bases without mass: friction then acts on nothing that has inertia."""
+    """Return bases without mass: friction there acts on no inertia."""
     moved = lumped(structure.matrices["mass"])[:, 0]
     bases = [structure.tags.index(tag) for tag in options.bases]
     if moved[bases].sum() > _LIGHT * moved.sum():

@@ -3,11 +3,11 @@
 And of models in space: at rest, at an instant, in their modes; of design spectra and motions; of
 fragility and risk.
 
-Each function takes one Dataset of `frames.time_history`, or several by name for comparison, and
-returns a matplotlib Figure of the width of a page, which a notebook shows as a picture; it draws on
-no display and keeps no state. ``start`` and ``end`` [s] show a part of the time. Save a figure with
-``figure.savefig("loops.png", dpi=150)``. Colours follow the order of the systems, so they agree
-between figures of the same systems.
+Each function has as argument one Dataset of `frames.time_history`, or several by name for
+comparison. It returns a matplotlib Figure of the width of a page, which a notebook shows as a
+picture; it draws on no display and keeps no state. ``start`` and ``end`` [s] show a part of the
+time. Save a figure with ``figure.savefig("loops.png", dpi=150)``. Colours follow the order of the
+systems, so they agree between figures of the same systems.
 """
 
 from frames.plots.bearing_dimensions import bearing_dimensions as bearing_dimensions

@@ -117,7 +117,7 @@ def _words(bearing: LIRBearing, plates: Plates | None) -> str:
 
 
 def _across(ax: Axes, half: float, begin: float, at: float, text: str) -> None:
-    # From -half to half at a height, with lines from where that is measured.
+    # From -half to half at a height, with lines from the measured points.
     for side in (-half, half):
         ax.plot([side, side], [begin, at], color=ps.GREY, linewidth=0.4)
     _arrow(ax, np.array([-half, at]), np.array([half, at]))

@@ -39,12 +39,12 @@ FILLS = {
     "top plate": "#B8BEC4",
 }
 INTERFACE = "#B2182B"
-_LIFTED = 5e-4  # m, gap that is told
-_SLIPS = 1e-3  # m, interface slip that tells which swing matters
+_LIFTED = 5e-4  # m, gap that is labelled
+_SLIPS = 1e-3  # m, interface slip above which its swing matters
 
 
 def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
-    """Return instants that tell the story of a bearing's impact."""
+    """Return the characteristic instants of a bearing's impact [s]."""
     time = data["time"].to_numpy()
     u = data["bearing_displacement"].sel(bearing=name, axis=list(ps.PLANE)).to_numpy()
     size = np.linalg.norm(u, axis=1)
@@ -104,8 +104,8 @@ def bearing_sections(
     data : Dataset
         Result of `frames.time_history`; it has the geometry of its bearings.
     bearing : str or LIRBearing, optional
-        Name of the bearing; that with the largest slip if left out (the largest displacement where
-        nothing slips). A device is compared with the one that the Dataset has under `name`.
+        Name of the bearing; by default that with the largest slip (the largest displacement if
+        nothing slips). A device is compared with that of the Dataset under `name`.
     name : str, optional
         The name, beside a device.
     instants : mapping of title to float, or sequence of float, optional
@@ -125,8 +125,8 @@ def bearing_sections(
     Raises
     ------
     ValueError
-        If there is no such bearing, the device is not the one of that name, there is no instant, or
-        one outside of the result.
+        If there is no bearing of that name, the device is not that of the name, there is no
+        instant, or one is outside of the result.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""What a drawing of a bearing needs of it, as its Dataset keeps it."""
+"""Input of a drawing of a bearing, from its Dataset."""
 
 from __future__ import annotations
 

@@ -98,7 +98,7 @@ def diaphragm_faces(model: FrameData) -> list[list[str]]:
 
 
 SHARE = 0.07
-"""Of a member's length, from its end, at which a hinge is drawn."""
+"""Distance of a hinge from the member's end as drawn, over its length [-]."""
 
 HINGES = {
     "linestyle": "",
@@ -114,7 +114,7 @@ _TICK = 0.03  # of the extent: half a wall, half the tick along a link's directi
 
 
 class Kind(NamedTuple):
-    """A kind of link: what the legend calls it, its laws, colour, line and mark."""
+    """A kind of link: its legend, laws, colour, line and mark."""
 
     label: str
     laws: tuple[type[Law], ...]
@@ -182,7 +182,7 @@ def _strokes(
 
 
 def hinge_places(lines: FloatArray, system: System, hinges: Hinges) -> tuple[list[str], FloatArray]:
-    """Return the names of plastic hinges, "member:i", and where they are drawn, (n, 3)."""
+    """Return the names of plastic hinges, "member:i", and their drawn places, (n, 3)."""
     place = {name: k for k, name in enumerate(system.members.names)}
     found, points = hinged_ends(hinges), []
     for _, member, end, _ in found:

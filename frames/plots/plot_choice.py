@@ -1,4 +1,4 @@
-"""What a figure shows: the systems, their part in time, the bearing."""
+"""Content of a figure: the systems, their part in time, the bearing."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def choose_bearing(
 
 
 _KEPT = {"interface_slip_size": "slip", "bearing_displacement": "displacement"}
-"""Variables of which a recording keeps what was reached, and under which name."""
+"""Variables whose peaks a recording keeps, and the names of the peaks."""
 
 
 def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> str:
@@ -141,7 +141,7 @@ def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> st
     Raises
     ------
     ValueError
-        If there is no such variable.
+        If there is no variable of that name.
 
     Examples
     --------
@@ -154,7 +154,7 @@ def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> st
     'bearing'
     """
     kept = largest_kept(data, _KEPT.get(variable, ""))
-    if kept is not None:  # of all steps, whatever was recorded
+    if kept is not None:  # of all steps, for any recording
         return str(data["bearing"].to_numpy()[int(np.argmax(kept[0]))])
     known = [str(name) for name in data.data_vars if "bearing" in data[name].dims]
     values = data[choose(variable, known, "variable of bearings")].transpose("bearing", ...)
@@ -184,7 +184,7 @@ def need(data: xr.Dataset, names: Collection[str], why: str) -> None:
 
 
 def label_of(name: str, data: xr.Dataset, space: str = " ") -> str:
-    """Return the name of a system; after `space`, that it stopped, or what to look at."""
+    """Return the name of a system; after `space`, that it stopped, or its findings."""
     status = data.attrs.get("status", "ok")
     if not RunStatus[status.upper()].is_complete:
         end = data.attrs.get("failed_at", float(data["time"][-1]))

@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
 
 USUAL = ("displacement", "base_shear", "interface_slip", "axial_force")
-_SPIKY = ("base_shear", "roof_acceleration")  # what impacts outdo by far, for an instant
+_SPIKY = ("base_shear", "roof_acceleration")  # impacts exceed the rest by far
 _BRIEF = 0.01  # share of the time that a few impacts may take
 _OUTSTANDING = 2.5  # times the largest value of the rest of the time: beyond, peaks are cut
-_ROOM = 1.6  # times that value, where the axis then ends
+_ROOM = 1.6  # times that value: end of the axis
 
 
 def histories(
@@ -49,18 +49,18 @@ def histories(
     systems : Dataset or mapping of name to Dataset
         Results to compare.
     quantities : str or sequence of str, optional
-        Of `QUANTITIES`: "displacement", "base_shear", "interface_slip", "axial_force",
-        "rim_force", "roof_acceleration", "ground_acceleration". Left out: the first four, without
-        those in which nothing happens.
+        Names in `QUANTITIES`: "displacement", "base_shear", "interface_slip", "axial_force",
+        "rim_force", "roof_acceleration", "ground_acceleration". Default: the first four, without
+        those that stay zero.
     bearing : str, optional
-        The bearing they belong to; left out: that with the largest slip in the first result (the
-        largest displacement where nothing slips).
+        Their bearing; by default that with the largest slip in the first result (the largest
+        displacement if nothing slips).
     start, end : float, optional
         Window of time [s].
     limits : mapping of quantity to float, optional
-        Largest value shown, in SI units, > 0; infinite shows all. Left out, base shear and roof
-        acceleration end where impacts shorter than 1 % of the time would flatten the rest. Peaks
-        beyond are marked with their value.
+        Largest value shown, in SI units, > 0; infinite shows all. By default base shear and roof
+        acceleration end at a lower value if impacts shorter than 1 % of the time would flatten the
+        rest. Peaks beyond are marked with their value.
 
     Returns
     -------
@@ -111,7 +111,7 @@ def histories(
 
 
 def _telling(trace: xr.DataArray) -> float:
-    # The largest size; where brief impacts outdo all the rest by far, what shows the rest.
+    # The largest size; a lower value if brief impacts exceed all the rest by far.
     size = np.abs(trace.to_numpy())
     peak = float(size.max())
     order = np.argsort(size)
@@ -156,7 +156,7 @@ def _until(trace: xr.DataArray, other: xr.DataArray) -> FloatArray:
 
 
 def _trace(data: xr.Dataset, name: str, bearing: str) -> xr.DataArray:
-    # Of a bearing, of the highest level or of the whole structure.
+    # Quantity of a bearing, of the highest level or of the whole structure.
     key, label = QUANTITIES[name]
     quantity = TABLE.get(key, _GROUND)
     values = quantity.of(data)
@@ -199,12 +199,12 @@ _SAME_PLACE = 3  # decimals of a place in m, in plan
 
 
 def bearing_plan(data: xr.Dataset) -> Figure:
-    """Draw the bearings in plan, coloured by how far they use their displacement capacity.
+    """Draw the bearings in plan, coloured by displacement over displacement capacity.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history.
+        Result of a time history.
 
     Returns
     -------
@@ -216,7 +216,7 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     Raises
     ------
     ValueError
-        If the Dataset does not tell the places of nodes.
+        If the Dataset lacks the places of nodes.
 
     Examples
     --------

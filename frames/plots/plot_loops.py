@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _QUIET = 1e-3  # of the other component: a component below moves nothing that a figure shows
 _BRIEF = 0.02  # share of the path travelled under forces that a few impacts may take
 _OUTSTANDING = 2.0  # times the force of the rest of the path: beyond, peaks are cut
-_ROOM = 1.5  # times that force, where the axis then ends
+_ROOM = 1.5  # times that force: end of the axis
 
 
 def hysteresis(
@@ -71,7 +71,7 @@ def hysteresis(
     Raises
     ------
     ValueError
-        If there is no such bearing, nothing in the window, or no weight to divide by.
+        If there is no bearing of that name, nothing in the window, or no weight to divide by.
 
     Examples
     --------
@@ -145,7 +145,7 @@ def orbits(
     Raises
     ------
     ValueError
-        If there is no such bearing or system, or nothing in the window.
+        If there is no bearing or system of that name, or nothing in the window.
 
     Examples
     --------
@@ -186,7 +186,7 @@ def orbits(
 
 
 def _loop(data: xr.Dataset, bearing: str | None) -> Loop:
-    # Of a bearing or of the whole level.
+    # Motion of a bearing or of the whole level.
     plane = list(ps.PLANE)
     if bearing is None:
         pick.need(data, ("base_shear", "weight"), "name a bearing, to see its own loop")
@@ -215,7 +215,7 @@ def _moving(loops: Iterable[Loop]) -> list[int]:
 
 
 def _telling_force(u: FloatArray, force: FloatArray) -> float:
-    # The largest force; where few impacts outdo all the rest by far, what shows the rest.
+    # The largest force; a lower value if few impacts exceed all the rest by far.
     peak = float(np.abs(force).max())
     way = np.linalg.norm(np.diff(u, axis=0), axis=1)
     size = np.abs(force[1:]).max(axis=1)
@@ -228,7 +228,7 @@ def _telling_force(u: FloatArray, force: FloatArray) -> float:
 
 
 def _mark_peaks(panel: Axes, u: FloatArray, force: FloatArray, limit: float) -> bool:
-    # An arrowhead and the value at the edge of the panel, beside the curve, for what lies beyond.
+    # An arrowhead and the value at the edge of the panel, beside the curve, for larger values.
     is_cut = False
     for sign, place in ((1.0, "top"), (-1.0, "bottom")):
         step = int(np.argmax(sign * force))
@@ -256,7 +256,7 @@ def _cut_legend() -> list[Artist]:
 
 
 def _capacity(data: xr.Dataset, bearing: str) -> float:
-    # What the Dataset has of the first rim contact; of a part without it: no circle.
+    # First rim contact in the Dataset; without it: no circle.
     return device_of(data, bearing).lateral_capacity if has_device(data) else math.inf
 
 

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from frames.statics.modes import BearingStiffness
 
 LARGEST = 0.08
-"""Drawn size of the largest displacement over the extent of the model, where none is chosen."""
+"""Default drawn size of the largest displacement over the extent of the model."""
 
 MEMBERS, BEARINGS, SUPPORTS, MASSES, AT_REST = (
     ps.PALETTE[0],
@@ -50,7 +50,7 @@ FACES = {
     "walls": {"facecolor": ps.PALETTE[4], "alpha": 0.35, "edgecolor": ps.GREY, "linewidths": 0.3},
     "diaphragms": {"facecolor": ps.PALETTE[5], "alpha": 0.15, "linewidths": 0.0},
 }
-"""Style of areas, by what the legend calls them."""
+"""Style of areas, by their name in the legend."""
 _PICTURES = 20  # a second, of a film
 _NARROW = 0.35  # of the longest side: below, there is room for few numbers along an axis
 _MASS_SIZE = 90.0  # pt2, of the largest mass's mark
@@ -63,7 +63,7 @@ def model_view(
     time: float | None = None,
     factor: float | None = None,
 ) -> Figure:
-    """Draw a model in space, at rest or as it stands at an instant of a time history.
+    """Draw a model in space, at rest or at an instant of a time history.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def model_view(
     ModelError
         If the time history is not one of this model.
     ValueError
-        If the instant lies outside of it, or the factor is not positive.
+        If the instant is outside of it, or the factor is not positive.
 
     Examples
     --------
@@ -137,7 +137,7 @@ def model_film(
     Returns
     -------
     matplotlib.animation.FuncAnimation
-        Of 20 pictures a second: ``film.save("model.gif", writer="pillow")`` writes it, in a
+        Film of 20 pictures a second: ``film.save("model.gif", writer="pillow")`` writes it, in a
         notebook ``film.to_jshtml()`` shows it.
 
     Raises
@@ -200,7 +200,7 @@ def mode_shapes(model: FrameData, count: int = 3, bearings: BearingStiffness = "
     count : int
         Number of modes, 1 to 6.
     bearings : {"sliding", "sticking", "fixed"}
-        How the bearings count, as in `frames.modes`.
+        Stiffness of the bearings, as in `frames.modes`.
 
     Returns
     -------
@@ -212,7 +212,7 @@ def mode_shapes(model: FrameData, count: int = 3, bearings: BearingStiffness = "
     ValueError
         If more than six are asked for.
     ModelError
-        As `frames.modes` does.
+        As for `frames.modes`.
 
     Examples
     --------
@@ -271,7 +271,7 @@ def _draw(
     plain: bool = False,
     enlarged: float = 1.0,
 ) -> list[Any]:
-    # The model whole: the panel's own frame would cut what the view takes beyond it.
+    # The whole model: the panel's own frame would cut parts of the view.
     drawn = _parts(panel, model, system, u, plain=plain)
     if not plain:
         drawn += draw_links(panel, model, system, system.coordinates + u[:, :3], enlarged)
@@ -284,7 +284,7 @@ def _draw(
 def _parts(
     panel: Any, model: FrameData, system: System, u: FloatArray, *, plain: bool = False
 ) -> list[Any]:
-    # The parts of the model at displacements that are already enlarged; returns what was drawn.
+    # The parts of the model at enlarged displacements; returns the drawn artists.
     place = system.coordinates + u[:, :3]
     index = {name: k for k, name in enumerate(system.node_names)}
     lines = member_lines(system.members, system.coordinates, u)

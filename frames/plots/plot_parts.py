@@ -56,7 +56,7 @@ def hinge_map(
     data : xarray.Dataset
         Its time history.
     time : float, optional
-        Instant [s]; the largest rotations of the run, whatever it recorded, if None.
+        Instant [s]; the largest rotations of the run, for any recording, if None.
     limits : sequence of 3 floats, optional
         Plastic rotations [rad] up to which a hinge is acceptable for Immediate Occupancy, Life
         Safety and Collapse Prevention (IO, LS, CP; ASCE/SEI 41, chapters 9 and 10).
@@ -64,15 +64,15 @@ def hinge_map(
     Returns
     -------
     Figure
-        The undeformed model with a circle at each hinge: white where it stayed elastic, else
-        coloured by the size of its rotation about both axes [rad], or by class; the legend counts.
+        The undeformed model with a circle at each hinge: white if it stayed elastic, else coloured
+        by the size of its rotation about both axes [rad], or by class; the legend counts.
 
     Raises
     ------
     ModelError
         If the time history is not one of this model.
     ValueError
-        If it has no hinges, the instant lies outside of it, or the limits do not grow from 0.
+        If it has no hinges, the instant is outside of it, or the limits do not grow from 0.
 
     Examples
     --------
@@ -182,8 +182,8 @@ def link_loops(
     Returns
     -------
     Figure
-        Loops in mm and kN, of links that turn in mrad and kN m; dotted lines at the deformation
-        at yield, on the sides where it was reached.
+        Loops in mm and kN, of rotational links in mrad and kN m; dotted lines at the yield
+        deformation, on the sides that reached it.
 
     Raises
     ------

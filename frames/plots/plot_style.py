@@ -1,4 +1,4 @@
-"""What all figures share: size, palette, text and units."""
+"""Common style of all figures: size, palette, text and units."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def add_legend(
     title: str = "",
     size: float = LABEL,
 ) -> None:
-    """Put a legend, under its title, above all panels; of `columns`, or as many as fit."""
+    """Add a legend, under its title, above all panels; of `columns`, or as many as fit."""
     entries = list(handles)
     longest = max((len(str(entry.get_label())) for entry in entries), default=0)
     entry_width = (LETTER * longest + 4.5) * size / 72.0
@@ -190,7 +190,7 @@ def engineering(units: str, peak: float) -> tuple[float, str]:
 
 
 def text_of(long_name: str, unit: str) -> str:
-    """Return the label of an axis: what it shows, and its unit in brackets."""
+    """Return the label of an axis: its quantity, and its unit in brackets."""
     return f"{long_name} [{unit}]" if unit else f"{long_name} [-]"
 
 
@@ -200,7 +200,7 @@ def peak_of(values: Iterable[FloatArray]) -> float:
 
 
 def say_ticks(figure: Figure, say: Callable[[str], str]) -> None:
-    """Have the labels of all axes of a figure said by `say`."""
+    """Translate the tick labels of all axes of a figure by `say`."""
     for axes in figure.axes:
         third = getattr(axes, "zaxis", None)
         for axis in (axes.xaxis, axes.yaxis, *([third] if third else [])):

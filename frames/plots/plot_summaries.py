@@ -1,4 +1,4 @@
-"""Figures of a whole run: peaks over the height, and where the energy goes."""
+"""Figures of a whole run: peaks over the height, and the energy terms."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ PART_GROUPS: dict[str, tuple[tuple[str, ...], str, str]] = {
     "dampers": (("dampers",), "#6A51A3", "|||"),
     "stops, walls": (("stops",), "#444444", ""),
 }
-"""The same of links and hinges, drawn after the damping where one of the results has them."""
+"""Energy terms of links and hinges, drawn after the damping if a result has them."""
 
 _AFTER = "damping of the structure"
 
 EDGE = "#333333"
 PERIODS = np.geomspace(0.02, 5.0, 120)
-"""Of the floor spectra [s]."""
+"""Periods of the floor spectra [s]."""
 
 MOST_PANELS = 6
 _RING: dict[str, Any] = {"marker": "o", "fillstyle": "none", "markersize": 6.0}
@@ -134,7 +134,7 @@ def floor_spectra(
     start: float | None = None,
     end: float | None = None,
 ) -> Figure:
-    """Draw response spectra of floors, for what stands on them.
+    """Draw response spectra of floors, for equipment on them.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def floor_spectra(
     axis : {"x", "y", "z"}
         Direction.
     damping : float
-        Of what stands there [-].
+        Damping ratio of the equipment [-].
     start, end : float, optional
         Window of time [s].
 
@@ -157,7 +157,7 @@ def floor_spectra(
     Raises
     ------
     ValueError
-        If there is no such level, or nothing lies in the window.
+        If there is no level of that name, or nothing is in the window.
 
     Examples
     --------
@@ -191,7 +191,7 @@ def floor_spectra(
 
 
 def _peaks(data: xr.Dataset, name: str, *, whole: bool) -> FloatArray:
-    # What was reached of a quantity in the whole run, or in the window that `data` is.
+    # Peak of a quantity in the whole run, or in the window of `data`.
     if whole:
         return largest(data, name).values
     return extreme_of(QUANTITIES[name].of(data), data["time"].to_numpy()).values
@@ -221,7 +221,7 @@ def energy(
     start: float | None = None,
     end: float | None = None,
 ) -> Figure:
-    """Draw where the energy of the ground motion goes, over time.
+    """Draw the energy of the ground motion and its terms, over time.
 
     Parameters
     ----------
@@ -288,7 +288,7 @@ def energy_groups(
 
 
 def _is_there(systems: Mapping[str, xr.Dataset], terms: tuple[str, ...]) -> bool:
-    # Whether a result has energy in one of the terms.
+    # True if a result has energy in one of the terms.
     energies = (data["energy"].sel(term=list(terms)).to_numpy() for data in systems.values())
     return ps.peak_of(energies) > 0.0
 

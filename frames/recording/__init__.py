@@ -1,1 +1,1 @@
-"""What of a time history is recorded, and the Dataset made of it."""
+"""Recorded part of a time history, and its Dataset."""

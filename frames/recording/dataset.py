@@ -42,14 +42,14 @@ _PLACES = "node_position", "level_node", "level_height"
 
 
 class Common(NamedTuple):
-    """What all results of a structure hold of it."""
+    """Common data of all results of a structure."""
 
     frame: FrameData
     variables: dict[str, xr.Variable]
     labels: dict[str, list[str]]
     coordinates: xr.Coordinates  # of these labels: all but the time
     storeys: int
-    storey_rows: Callable[[], StoreyRows]  # formed where they are first asked for, once
+    storey_rows: Callable[[], StoreyRows]  # formed on first use, once
     resultants: Resultants
 
     def is_laid_out_as(self, other: Common) -> bool:
@@ -72,7 +72,7 @@ class Common(NamedTuple):
 
 
 def common_of(frame: FrameData, state: GravityState, like: Common | None = None) -> Common:
-    """Return what all results of a structure hold of it; what is the same is that of `like`."""
+    """Return the common data of a structure's results; equal parts are those of `like`."""
     system, levels = state.system, frame.levels
     if like is not None and like.resultants.serves(state):
         resultants = like.resultants
@@ -111,7 +111,7 @@ def build_dataset(
     *,
     kept: bool = False,
 ) -> xr.Dataset:
-    """Put the first `count` recorded steps into a Dataset (docs/results.md).
+    """Build a Dataset from the first `count` recorded steps (docs/results.md).
 
     Shapes: peak (3,).
     """
@@ -191,7 +191,7 @@ def build_dataset(
 
 
 def _permanent(frame: FrameData, state: GravityState) -> dict[str, xr.Variable]:
-    # What a structure carries, and its levels.
+    # Parts of a structure, and its levels.
     system = state.system
     return {
         "node_position": labelled(
@@ -219,7 +219,7 @@ def _permanent(frame: FrameData, state: GravityState) -> dict[str, xr.Variable]:
 
 
 class _Motion:
-    """What the structure did, from what was recorded: formed where it is asked for."""
+    """Motion of the structure from the recorded steps, formed on use."""
 
     def __init__(
         self,
@@ -239,7 +239,7 @@ class _Motion:
         return self._of_nodes(self._moves())
 
     def _moves(self) -> FloatArray:
-        # Of the free degrees of freedom.
+        # Histories of the free degrees of freedom.
         state, out, count = self._state, self._out, self._count
         q = expand(state.basis, out.b[:count], out.e[:count])
         if state.parts is not None:
@@ -318,8 +318,8 @@ def _bearing_velocity(state: GravityState, v_b: FloatArray) -> FloatArray:
 
 
 def _other_reactions(state: GravityState, q: FloatArray, beyond: FloatArray) -> FloatArray:
-    # What supports of the structure itself resist (members on the ground), signed as bearing forces
-    # are: positive with positive displacement of the structure.
+    # Resistance of the structure's own supports (members on the ground), with the sign of bearing
+    # forces: positive for positive displacement of the structure.
     system = state.system
     fixed = system.fixed_dofs[system.fixed_dofs % 6 < 3]
     stiffness = system.node_stiffness + state.node_geometric

@@ -1,6 +1,6 @@
-"""Forces in members, storeys and under bearings as rows over what a time history records.
+"""Forces in members, storeys and under bearings as rows over the recorded quantities.
 
-All but what yields is linear in the displacements, and what yields is recorded: a matrix and a
+Elastic forces are linear in the displacements, and the nonlinear ones are recorded: a matrix and a
 constant give the forces at any step.
 """
 
@@ -33,16 +33,16 @@ MEMBER_FORCES = ("N", "Vy", "Vz", "T", "My", "Mz")
 """Forces at a section of a member, along and about its local axes."""
 
 STOREY_FORCES = ("Vx", "Vy", "Fz", "Mx", "My", "Mz")
-"""What a storey passes on downwards, along and about the global axes."""
+"""Forces that a storey transfers downwards, along and about the global axes."""
 
 REACTIONS = ("N", "Vx", "Vy", "Mx", "My", "Mz")
-"""What a bearing exerts on what is below and above it: N presses, the others along the axes."""
+"""Forces of a bearing on the parts below and above it: N presses, the others along the axes."""
 
 STATIONS = ("i", "mid", "j")
 """Sections of a member: its ends, and the middle of the length between them."""
 
 SIDES = ("below", "above")
-"""Of a bearing: on what it stands, and what stands on it."""
+"""Sides of a bearing: the part below, and the part above."""
 
 _SIX = len(MEMBER_FORCES)
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)  # exact to degree 5: load 1, lever 1
@@ -88,7 +88,7 @@ class ForceMaps(NamedTuple):
 
 
 class _Rows(NamedTuple):
-    # Of one kind, over all free displacements, forces beyond and forces of bearings.
+    # One kind of forces, over all free displacements, forces beyond and forces of bearings.
     q: SparseMatrix
     beyond: SparseMatrix
     bearings: SparseMatrix
@@ -96,7 +96,7 @@ class _Rows(NamedTuple):
 
 
 def force_maps(model: FrameData, state: GravityState) -> ForceMaps:
-    """Return how forces follow from what a time history of a structure records."""
+    """Return the maps from the recorded quantities of a structure to its forces."""
     system, axial = state.system, state.member_forces
     names = tuple(placed.name for placed in system.bearings)
     levels = tuple(level.name for level in model.levels)
@@ -152,8 +152,8 @@ def force_maps(model: FrameData, state: GravityState) -> ForceMaps:
 
 
 def _sections() -> FloatArray:
-    # At end i the opposite of the force on it, at end j that force; in the middle the mean of what
-    # equilibrium asks for from either end.
+    # At end i the opposite of the force on it, at end j that force; in the middle the mean of the
+    # equilibrium from either end.
     section, own = np.zeros((3 * _SIX, 12)), np.eye(_SIX)
     section[:_SIX, :_SIX], section[2 * _SIX :, _SIX:] = -own, own
     section[_SIX : 2 * _SIX, :_SIX], section[_SIX : 2 * _SIX, _SIX:] = -0.5 * own, 0.5 * own
@@ -181,7 +181,7 @@ def element_sections(system: System, kept: Sequence[int]) -> tuple[SparseMatrix,
 
 
 def _element_rows(system: System) -> _Rows:
-    # Of the line elements of superelements, in the same way.
+    # The line elements of superelements in the same way.
     over_q, rest = element_sections(system, range(len(system.elements.names)))
     return _Rows(
         q=over_q,
@@ -224,7 +224,7 @@ def _member_rows(model: FrameData, system: System, axial: FloatArray) -> _Rows:
 
 
 def between_ends(model: FrameData, table: MemberTable, share: float = 0.5) -> FloatArray:
-    """Return what loads along members add between their ends.
+    """Return the forces of loads along members between their ends.
 
     Shapes: result (n, 6).
     """
@@ -284,7 +284,7 @@ def _storey_rows(system: System, axial: FloatArray, levels: Sequence[Level]) -> 
 
 
 def _reaction_rows(system: System) -> _Rows:
-    # The opposite of what a bearing needs on its nodes; N positive where it presses.
+    # The opposite of the bearing's forces on its nodes; N positive if it presses.
     bearings = len(system.bearings)
     sign = -np.ones((2, _SIX))  # in the order of a node's displacements
     sign[0, 2] = 1.0

@@ -1,4 +1,4 @@
-"""Extremes of forces in members, storeys and bearings, with what acts at once; and of strains."""
+"""Extremes of forces in members, storeys and bearings, with simultaneous ones; and of strains."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Records
 
 WAYS = ("largest", "smallest")
-"""Of each force, along the dimension `extreme`."""
+"""Extremes of each force, along the dimension `extreme`."""
 
 _AT_ONCE = 64  # steps, whose forces are found in the processor's own memory
 
@@ -42,7 +42,7 @@ class ForceTracker:
         self._taken = 0
 
     def take(self, states: Records, out: Output, first: int, count: int) -> None:
-        """Take up what is new among the first `count` recorded steps, `first` being the first."""
+        """Add the new ones of the first `count` recorded steps, `first` being the first."""
         for begin in range(self._taken - first, count, _AT_ONCE):
             rows = slice(begin, min(begin + _AT_ONCE, count))
             values = self._maps.of(out, states, rows)
@@ -52,7 +52,7 @@ class ForceTracker:
             self._taken = first + rows.stop
 
     def variables(self) -> tuple[dict[str, xr.Variable], dict[str, list[str]]]:
-        """Return what was reached as variables (docs/recording.md), and their coordinates."""
+        """Return the peaks as variables (docs/recording.md), and their coordinates."""
         variables: dict[str, xr.Variable] = {}
         coordinates: dict[str, list[str]] = {}
         first = 0
@@ -107,7 +107,7 @@ _PICKED = (0, 4, 5)  # N, My, Mz
 
 
 class StrainGauge:
-    """Keeps the largest strains over their limits; of a structure without such members, nothing."""
+    """Largest strains over their limits; empty for a structure without members that may yield."""
 
     def __init__(self, model: FrameData, state: GravityState) -> None:
         known = {k: v for p in model.superelements.values() for k, v in p.elements.strains.items()}
@@ -134,12 +134,12 @@ class StrainGauge:
                 self._strains[k, end, : len(rows)] = rows
 
     def reset(self) -> None:
-        """Forget what was taken up."""
+        """Clear the recorded strains."""
         self._most = np.zeros(len(self.names))
         self._time = np.full(len(self.names), np.nan)
 
     def take(self, out: Output, first: int, last: int) -> None:
-        """Take up rows first <= k < last of what was recorded."""
+        """Add rows first <= k < last of the recorded steps."""
         for begin in range(first, last if self.names else first, _STRAINS_AT_ONCE):
             rows = slice(begin, min(begin + _STRAINS_AT_ONCE, last))
             x = np.hstack([out.b[rows], out.e[rows], out.beyond[rows]])
@@ -152,7 +152,7 @@ class StrainGauge:
             self._most[more], self._time[more] = largest[more], out.time[rows][at[more]]
 
     def attrs(self) -> dict[str, object]:
-        """Return attributes of the result: the largest, where, when, and how many are beyond 1."""
+        """Return attributes of the result: the largest, its place and time, and the number > 1."""
         if not self.names:
             return {}
         k = int(self._most.argmax())

@@ -1,4 +1,4 @@
-"""Links and hinges over a time history: labelled variables, forces, and what they reached."""
+"""Links and hinges over a time history: labelled variables, forces, and peaks."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def _hinge_variables(
 
 
 def forces_beyond(system: System, data: xr.Dataset) -> FloatArray:
-    """Return what nonlinear parts add to the elastic forces g of a time history, (time, m)."""
+    """Return the forces of nonlinear parts beyond the elastic forces g, (time, m)."""
     found = system.parts
     beyond = np.zeros((data.sizes["time"], int(found.first[-1])))
     n = len(found.links)
@@ -145,12 +145,12 @@ def forces_beyond(system: System, data: xr.Dataset) -> FloatArray:
 
 
 def _places(end: int) -> list[int]:
-    # Of N, My and Mz at an end among a member's five forces.
+    # Places of N, My and Mz at an end among a member's five forces.
     return [place(end, part) for part in range(3)]
 
 
 class NonlinearPeaks:
-    """Keeps what nonlinear parts reached; of a structure without any, nothing."""
+    """Peaks of nonlinear parts; empty for a structure without any."""
 
     def __init__(self, state: GravityState, model: FrameData) -> None:
         found = state.system.parts
@@ -164,7 +164,7 @@ class NonlinearPeaks:
         self._reached: dict[str, Extreme] = {}
 
     def take(self, out: Output, first: int, last: int) -> None:
-        """Take up rows first <= k < last of what was recorded, which follow those before."""
+        """Add rows first <= k < last of the recorded steps, which follow those before."""
         time = out.time[first:last]
         for name, values in self._histories(out, first, last).items():
             if len(time):
@@ -173,11 +173,11 @@ class NonlinearPeaks:
                 self._reached[name] = now if before is None else larger_of(before, now)
 
     def reached(self) -> dict[str, Extreme]:
-        """Return what was reached, by quantity."""
+        """Return the peaks by quantity."""
         return self._reached
 
     def left(self, out: Output, row: int) -> dict[str, FloatArray]:
-        """Return what is left at a row of what was recorded, by quantity."""
+        """Return the residual values at a row of the recorded steps, by quantity."""
         here = self._histories(out, row, row + 1)
         kept = ("link_deformation", "link_work", "hinge_rotation", "hinge_work")
         return {name: here[name][0] for name in kept if name in here}

@@ -1,4 +1,4 @@
-"""What a run reached, taken up by compiled code from what its loop records, without any Dataset.
+"""Peaks of a run, found by compiled code from the records of its loop, without any Dataset.
 
 The quantities are those of `frames.results.quantities`, of most runs at the level 'pendulum'
 (`can_track`); those of others are read off Datasets (`Reduction`).
@@ -42,7 +42,7 @@ SHOWN = np.dtype(
 
 
 class Places(NamedTuple):
-    """Where the structure's nodes stand, as a Dataset knows it: `frames.results.measures`."""
+    """Places of the structure's nodes, as in a Dataset: `frames.results.measures`."""
 
     level: IntArray  # (n_nodes,) level of each node, -1 for none
     height: FloatArray  # (n_levels,) [m]
@@ -51,7 +51,7 @@ class Places(NamedTuple):
 
 
 class Kinematics(NamedTuple):
-    """What geometry, supports and masses of a structure give, whatever its stiffness."""
+    """Data of geometry, supports and masses of a structure, independent of its stiffness."""
 
     places: Places
     drifts: SparseMatrix  # drifts of storeys and lines along x and y, over free displacements
@@ -59,7 +59,7 @@ class Kinematics(NamedTuple):
 
 
 def kinematics_of(transform: SparseMatrix, data: xr.Dataset) -> Kinematics:
-    """Return where the nodes of a result stand, and how they move."""
+    """Return places and motions of the nodes of a result."""
     levels = data["level_node"].to_numpy(), data["level_height"].to_numpy()
     places = Places(*levels, lines_of(data), floor_shares(data))
     return Kinematics(places, _drift_rows(transform, places), _acceleration_rows(transform, places))
@@ -70,11 +70,11 @@ class StoreyMaps(NamedTuple):
 
     over_x: FloatArray  # (2 n_storeys, n_x)
     rest: FloatArray  # (2 n_storeys,)
-    crossed: IntArray  # (n_storeys, n_bearings) 1 where the bearing passes through the storey
+    crossed: IntArray  # (n_storeys, n_bearings) 1 if the bearing passes through the storey
 
 
 def can_track(state: GravityState) -> bool:
-    """Return whether what a run reaches can be taken up without Datasets."""
+    """Return True if the peaks of a run can be found without Datasets."""
     # without vertical coupling its force is formed over neighbouring steps; bearings that the tilt
     # of their plates does not reach do not know it; nor are friction's other laws looked at there
     kept, records = state.system.features, device_records(state.system)
@@ -83,7 +83,7 @@ def can_track(state: GravityState) -> bool:
 
 
 def devices_of(state: GravityState) -> Devices:
-    """Return what the peaks of the bearings are formed with."""
+    """Return the input of the bearings' peaks."""
     props, system = state.model.props, state.system
     slider_height = props["radius"].sum(axis=1) - props["length"]
     return Devices(
@@ -99,7 +99,7 @@ def devices_of(state: GravityState) -> Devices:
 
 
 def shape_of(state: GravityState, accelerating: FloatArray, kinematics: Kinematics) -> Shape:
-    """Return what the peaks of the structure are formed with; `accelerating` of `Resultants`."""
+    """Return the input of the structure's peaks; `accelerating` of `Resultants`."""
     basis, system = state.basis, state.system
     places, drifts, over_a = kinematics
     shear = _shear_rows(state)
@@ -176,7 +176,7 @@ def nothing_reached(bearings: int, shape: Shape | None) -> Reached:
 
 
 class PeakTracker:
-    """Keeps what a run reached."""
+    """Peaks of a run."""
 
     def __init__(self, devices: Devices, shape: Shape | None = None) -> None:
         own = ("x", "u", "x_rate", "a")  # scratch of this one alone
@@ -186,7 +186,7 @@ class PeakTracker:
         self._bent = np.zeros(len(devices.records))
 
     def take(self, states: Records, out: Output, ground: Ground, first: int, last: int) -> None:
-        """Take up rows first <= k < last of what was recorded, which follow those before."""
+        """Add rows first <= k < last of the recorded steps, which follow those before."""
         if first >= last:
             return
         if self._shape is not None:
@@ -197,7 +197,7 @@ class PeakTracker:
         self._bent = states["rim_plastic"][last - 1].max(axis=-1)
 
     def reached(self) -> dict[str, Extreme]:
-        """Return what was reached, by quantity."""
+        """Return the peaks by quantity."""
         r = self._reached
         of_bearings = r.bearing.view(SHOWN)[:, 0], r.bearing_at.view(SHOWN)[:, 0]
         found = {name: Extreme(*(each[name].copy() for each in of_bearings)) for name in _OF_STEPS}
@@ -264,8 +264,8 @@ def _acceleration_rows(transform: SparseMatrix, places: Places) -> SparseMatrix:
 
 
 def _shear_rows(state: GravityState) -> tuple[SparseMatrix, FloatArray]:
-    # What supports of the structure itself resist along x and y: `_other_reactions` of the
-    # Dataset; over free degrees of freedom, and over forces beyond with the constant.
+    # Resistance of the structure's own supports along x and y: `_other_reactions` of the Dataset;
+    # over free degrees of freedom, and over forces beyond with the constant.
     system = state.system
     stiffness = system.node_stiffness + state.node_geometric
     node_rows = sparse.csc_array(system.parts.node_rows)

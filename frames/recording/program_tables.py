@@ -41,10 +41,10 @@ def program_tables(
     """Return largest and smallest results in the columns of SAP2000's and ETABS' tables.
 
     It is `Frame.program_tables`. Stations are measured from joint i of each member; between the
-    ends forces follow from those at both and from the loads along it. P is tension positive; axis
-    2 is local z and 3 is -y, so that V2 = Vz, V3 = -Vy, M2 = -Mz and M3 = -My of the section:
-    M3 > 0 where the side of -2 is pulled. Base reactions are about the origin. Drifts are those of
-    the middle of a storey.
+    ends forces follow from those at both and from the loads along it. P is tension positive; axis 2
+    is local z and 3 is -y, so that V2 = Vz, V3 = -Vy, M2 = -Mz and M3 = -My of the section: M3 > 0
+    if the side of -2 is in tension. Base reactions are about the origin. Drifts are those of the
+    middle of a storey.
     """
     known = UNITS | _MORE
     if units not in known:
@@ -96,7 +96,7 @@ def _tables(
 def _table(
     head: str, names: Iterable[object], values: FloatArray, case: str, words: tuple[str, ...]
 ) -> pd.DataFrame:
-    # Of values (time, name, word): a row of the largest and one of the smallest for each name.
+    # For values (time, name, word): a row of the largest and one of the smallest for each name.
     extremes = np.stack([values.max(axis=0), values.min(axis=0)], axis=1)
     rows = []
     for name, pair in zip(names, extremes, strict=True):

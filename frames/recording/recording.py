@@ -1,4 +1,4 @@
-"""What a time history records: steps, variables, bearings, nodes, or only what it reached."""
+"""Content of a recording: steps, variables, bearings, nodes, or only peaks."""
 
 from __future__ import annotations
 
@@ -29,19 +29,18 @@ _NAMES = {
 
 @dataclass(frozen=True, kw_only=True)
 class Recording:
-    """What a time history records; its parts go together as they are given.
+    """Content of a time history's record; its parts combine.
 
-    Whatever is left out, the run keeps what it reached at all of its base steps (`peaks`, the
-    assumption check, the energy balance read that), and takes no more memory than what is recorded
-    and a buffer of some 64 MB.
+    For any omission the run keeps the peaks of all its base steps (for `peaks`, the assumption
+    check, the energy balance), and needs no more memory than the record and a buffer of some 64 MB.
 
     Parameters
     ----------
     every : int or None
         Every so many base steps, the first one included. None: the first and the last only.
     channels : sequence of str, optional
-        Variables by name, as in docs/results.md, such as "bearing_displacement"; all if None. What
-        has no dimension `time` is kept always.
+        Variables by name, as in docs/results.md, such as "bearing_displacement"; all if None.
+        Variables without the dimension `time` are always kept.
     bearings : sequence of str, optional
         Names of the bearings recorded; all if None.
     nodes : sequence of str, optional
@@ -49,16 +48,15 @@ class Recording:
     levels : sequence of str, optional
         Names of levels whose nodes are recorded, besides `nodes`.
     around_impacts : (float, float), optional
-        All steps from so long before to so long after each rim contact [s], whatever `every`; a
+        All steps from this time before to this time after each rim contact [s], for any `every`; a
         contact is a base step at which a slider presses on a rim.
     extremes : bool
-        Whether the largest and the smallest value of every variable recorded are kept, and their
-        times, over all base steps: read them by ``envelope(data, variable)``.
+        True to keep the largest and the smallest value of every recorded variable, and their times,
+        over all base steps: read them by ``envelope(data, variable)``.
     forces : bool
-        Whether the largest and smallest forces in members, storeys and under bearings are kept,
-        each with the others that act at its instant, over all base steps: the variables
-        ``peak_member_force``, ``peak_storey_force`` and ``peak_reaction_force``
-        (docs/recording.md).
+        True to keep the largest and smallest forces in members, storeys and under bearings, each
+        with the others at its instant, over all base steps: the variables ``peak_member_force``,
+        ``peak_storey_force`` and ``peak_reaction_force`` (docs/recording.md).
 
     Raises
     ------
@@ -87,7 +85,7 @@ class Recording:
     forces: bool = False
 
     def __post_init__(self) -> None:
-        """Check, and keep what was given as tuples."""
+        """Check the fields, and keep sequences as tuples."""
         if self.every is not None:
             object.__setattr__(self, "every", whole_steps("every", self.every))
         for name in _NAMES:
@@ -114,7 +112,7 @@ class Recording:
 
     @property
     def is_everything(self) -> bool:
-        """Whether nothing is left out, and nothing kept besides."""
+        """True if nothing is left out, and nothing is added."""
         return self == type(self)()
 
     @property
@@ -123,7 +121,7 @@ class Recording:
         return tuple(name for kind in _NAMES for name in getattr(self, kind) or ())
 
     def __str__(self) -> str:
-        """Return what is recorded, in words."""
+        """Return the content in words."""
         steps = ENDS if self.every is None else f"every {_ordinal(self.every)}step"
         parts = [EVERY_STEP if self.every == 1 else steps]
         if self.around_impacts is not None and self.every != 1:
@@ -140,7 +138,7 @@ class Recording:
         return ", ".join(parts)
 
     def __repr__(self) -> str:
-        """Return how it is made, without what was left at its default."""
+        """Return its constructor call, without defaults."""
         given = [
             f"{field.name}={getattr(self, field.name)!r}"
             for field in fields(self)
@@ -150,7 +148,7 @@ class Recording:
 
 
 def recording_of(recording: object, record_every: object) -> Recording:
-    """Return what `time_history` was asked to record."""
+    """Return the recording of `time_history` from its arguments."""
     every = whole_steps("record_every", record_every)
     if recording is None:
         return Recording(every=every)
@@ -241,14 +239,14 @@ COARSEST = 1.0
 """Step that resolves no earthquake [s]."""
 
 USUAL_MEMORY = 8e9
-"""Memory to count on where the system does not tell [bytes]."""
+"""Assumed memory if the system does not report it [bytes]."""
 
 COPIES = 3.0
-"""Size of the Dataset and of what it is made from over that of the states recorded."""
+"""Size of the Dataset and of its input over that of the recorded states."""
 
 
 def number_of_steps(duration: float, dt: float | None, largest: float) -> int:
-    """Return the base steps of a run, or refuse what cannot end."""
+    """Return the number of base steps of a run; refuse one without end."""
     step = largest if dt is None else require_positive("dt", dt, "s")
     if dt is not None and dt > duration * (1.0 + 1e-9):
         msg = (

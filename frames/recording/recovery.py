@@ -1,7 +1,7 @@
 """Forces in the structure, from the displacements of a time history: members, storeys, supports.
 
-All but what yields is linear in the recorded displacements, and what yields is recorded: nothing
-else has to be kept in a run for it.
+Elastic forces are linear in the recorded displacements, and the nonlinear ones are recorded: a run
+needs to keep nothing else.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def member_forces(
     model : Frame
         The model that was analysed.
     data : xarray.Dataset
-        Of `time_history`, also one that was saved and loaded.
+        Result of `time_history`, also one that was saved and loaded.
     members : sequence of str, optional
         Names, also of line elements of superelements ("element-12" of an OpenSees model); all of
         them if None.
@@ -76,15 +76,15 @@ def member_forces(
     -------
     xarray.DataArray
         (time, member, end i and j, component N, Vy, Vz, T, My, Mz) [N, N m]: forces and moments on
-        the ends of the member (the faces of its rigid end zones, where it has some), positive
-        along and about its local axes, permanent loads included. So a compressed member has N > 0
-        at end i and N < 0 at end j. Second-order effects are those of the analysis: the permanent
-        axial forces' geometric stiffness.
+        the ends of the member (the faces of its rigid end zones, if it has some), positive along
+        and about its local axes, permanent loads included. So a compressed member has N > 0 at end
+        i and N < 0 at end j. Second-order effects are those of the analysis: the permanent axial
+        forces' geometric stiffness.
 
     Raises
     ------
     ModelError
-        If the model is not the one that was analysed, or has no such member.
+        If the model is not the analysed one, or does not have the member.
 
     Examples
     --------
@@ -108,20 +108,20 @@ def member_forces(
 
 
 def support_reactions(model: FrameData, data: xr.Dataset) -> xr.DataArray:
-    """Return what the supports exert on the structure over a time history.
+    """Return the forces of the supports on the structure over a time history [N, N m].
 
     Parameters
     ----------
     model : Frame
         The model that was analysed.
     data : xarray.Dataset
-        Of `time_history`, also one that was saved and loaded.
+        Result of `time_history`, also one that was saved and loaded.
 
     Returns
     -------
     xarray.DataArray
         (time, support, dof) [N, N m] at the fixed nodes, along and about the global axes: the
-        forces on the structure, permanent loads included; NaN where a node is free. The inertia of
+        forces on the structure, permanent loads included; NaN if a DOF is free. The inertia of
         masses placed on fixed nodes is the ground's.
 
     Raises
@@ -148,20 +148,20 @@ def storey_forces(model: FrameData, data: xr.Dataset) -> xr.DataArray:
     Parameters
     ----------
     model : Frame
-        The model that was analysed; its levels say where storeys begin and end.
+        The analysed model; its levels are the limits of storeys.
     data : xarray.Dataset
-        Of `time_history`, also one that was saved and loaded.
+        Result of `time_history`, also one that was saved and loaded.
 
     Returns
     -------
     xarray.DataArray
-        (time, storey, component) [N, N m]: what the part above a cut passes to the part below,
+        (time, storey, component) [N, N m]: forces of the part above a cut on the part below,
         positive with positive displacement as `base_shear` is, in components Vx, Vy (storey
         shears), Fz (negative under weight), Mx, My (overturning) and Mz (torsion), moments about
-        the middle of the nodes of the level below. A storey has the name of the level on top of
-        it and is cut at its foot; the first one lies under the lowest level and holds the
-        bearings, its moments about the middle of that level, which moves with it. Dampers of the
-        structure (`Frame.damping`) pass their forces besides.
+        the middle of the nodes of the level below. A storey has the name of the level on top of it
+        and is cut at its foot. The first one is under the lowest level and contains the bearings;
+        its moments are about the middle of that level, which moves with it. Dampers of the
+        structure (`Frame.damping`) add their forces.
 
     Raises
     ------
@@ -193,7 +193,7 @@ def force_tables(model: FrameData, data: xr.Dataset) -> dict[str, pd.DataFrame]:
     model : Frame
         The model that was analysed.
     data : xarray.Dataset
-        Of `time_history`, also one that was saved and loaded.
+        Result of `time_history`, also one that was saved and loaded.
 
     Returns
     -------
@@ -310,7 +310,7 @@ def _names(system: System) -> tuple[str, ...]:
 
 
 def _element_forces(found: _Structure, places: IntArray) -> FloatArray:
-    # Of line elements of superelements.
+    # Forces of line elements of superelements.
     table = found.system.elements
     u = found.u[:, element_dofs(table.nodes[places])]
     forces: FloatArray = np.einsum("nab,tnb->tna", table.rows[places], u) + table.rest[places]
@@ -318,7 +318,7 @@ def _element_forces(found: _Structure, places: IntArray) -> FloatArray:
 
 
 def _hinge_share(found: _Structure, member: str) -> FloatArray:
-    # What the hinges of a member take off its end forces, in local axes.
+    # Reduction of a member's end forces by its hinges, in local axes.
     parts, table = found.system.parts, found.system.members
     k = len(parts.links) + parts.hinged.index(member)
     at = slice(parts.first[k], parts.first[k + 1])

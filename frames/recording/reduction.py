@@ -36,9 +36,9 @@ class _Held(NamedTuple):
 
 
 class _State(NamedTuple):
-    # All that was taken up; replaced in one assignment, so that no interruption finds half of it.
+    # State of the reduction; replaced in one assignment, so that no interruption finds half of it.
     taken: int  # base steps taken up, the first one (at rest) included
-    parts: tuple[Columns, ...]  # what is recorded, piece by piece
+    parts: tuple[Columns, ...]  # recorded part, piece by piece
     held: _Held | None
     last_contact: float  # s
     last_kept: int  # base step
@@ -49,18 +49,18 @@ class _State(NamedTuple):
 
 
 class PeakState(NamedTuple):
-    """What a run reached, by quantity."""
+    """Peaks of a run, by quantity."""
 
     reached: dict[str, Extreme]
     totals: dict[str, FloatArray]
     left: dict[str, FloatArray]
-    """Of those of `LEFT`, at the last step."""
+    """Values of the quantities in `LEFT` at the last step."""
     until: float
     """Time of that step [s]."""
 
 
 def with_peak_state(data: xr.Dataset, found: PeakState) -> xr.Dataset:
-    """Return a result without histories with what its run reached, as the check reads it."""
+    """Return a result without histories with the peaks of its run, for the check."""
     variables: dict[str, xr.Variable] = {}
     for name, most in found.reached.items():
         (dims, unit, *_), text = QUANTITIES[name], QUANTITIES[name].described
@@ -87,7 +87,7 @@ def put_peak_state(
     peak: FloatArray,
     common: Mapping[str, xr.Variable],
 ) -> xr.Dataset:
-    """Put the numbers of another run into what `with_peak_state` gave, and return it.
+    """Write the numbers of another run into a result of `with_peak_state`, and return it.
 
     `common` are variables of the run's structure. Shapes: peak (3,).
     """
@@ -104,20 +104,20 @@ def put_peak_state(
 
 
 class Reduction:
-    """What a recording makes of a run that hands its steps over piece by piece."""
+    """Reduction of a run to its recording, piece by piece."""
 
     def __init__(self, recording: Recording) -> None:
         self._recording = recording
         self._state = _State(0, (), None, -np.inf, -1, {}, {}, {}, None)
 
     def take(self, piece: xr.Dataset, first: int, *, final: bool) -> None:
-        """Take up the steps of a piece that are new."""
+        """Add the new steps of a piece."""
         state, count = self._state, piece.sizes["time"]
         fresh = slice(state.taken - first, count)
         step = np.arange(state.taken, first + count)
         columns = self._columns(piece)
         extremes = self._extremes(columns, fresh, piece["time"].to_numpy(), state.extremes)
-        # what is formed over neighbours waits for the next piece with its last step
+        # values over neighbours wait for the next piece with its last step
         begin = max(state.taken - 1, 0) - first
         reached, totals = _measured(piece, begin, count if final else count - 1, state)
         new = {name: values[fresh] for name, values in columns.items()}
@@ -134,7 +134,7 @@ class Reduction:
         )
 
     def without_histories(self) -> xr.Dataset:
-        """Return what the check reads of a run that was taken up to its end: no histories."""
+        """Return the check's input of a complete run, without histories."""
         state = self._state
         tail = _tail(state)
         at_end = {name: QUANTITIES[name].of(tail)[-1] for name in LEFT if name in state.reached}
@@ -143,7 +143,7 @@ class Reduction:
         return with_peak_state(_without_time(tail), found)
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
-        """Return what `without_histories` gave, judged, with what is recorded besides."""
+        """Return the result of `without_histories`, checked, with the recorded part."""
         state, tail = self._state, _tail(self._state)
         self._state = state._replace(parts=())
         data = self._selected(judged)
@@ -152,7 +152,7 @@ class Reduction:
         del state
         variables = {}
         note = {"recording": str(self._recording)}
-        for name in names:  # one by one: what is put together is let go
+        for name in names:  # one by one: each joined part is released
             values = np.concatenate([part.pop(name) for part in parts])
             variables[name] = xr.Variable(tail[name].dims, values, tail[name].attrs | note)
         del variables["time"].attrs["recording"]
@@ -218,7 +218,7 @@ class Reduction:
         return found
 
     def _chosen(self, new: _Held, *, final: bool) -> tuple[_Held, _Held | None, float]:
-        # What to keep of the new steps and of those held, what to hold, and the last contact.
+        # New and held steps to keep, steps to hold, and the last contact.
         every, window, state = self._recording.every, self._recording.around_impacts, self._state
         if window is None:
             return _part(new, _regular(new.step, every)), None, state.last_contact
@@ -245,14 +245,14 @@ class Reduction:
 
 
 def reduced(data: xr.Dataset, recording: Recording) -> xr.Dataset:
-    """Return what a recording keeps of a result that holds all steps, its attributes kept."""
+    """Return the recorded part of a result with all steps, with its attributes."""
     reduction = Reduction(recording)
     reduction.take(data, 0, final=True)
     return reduction.recorded(reduction.without_histories().assign_attrs(data.attrs))
 
 
 def without_histories_of(data: xr.Dataset) -> xr.Dataset:
-    """Return what the check reads of a result that holds all steps, without its histories."""
+    """Return the check's input from a result with all steps, without its histories."""
     reduction = Reduction(Recording(every=None))
     reduction.take(data, 0, final=True)
     return reduction.without_histories().assign_attrs(data.attrs)
@@ -261,7 +261,7 @@ def without_histories_of(data: xr.Dataset) -> xr.Dataset:
 def _measured(
     piece: xr.Dataset, begin: int, end: int, state: _State
 ) -> tuple[dict[str, Extreme], dict[str, FloatArray]]:
-    # What was reached with the steps begin to end of a piece.
+    # Peaks of the steps begin to end of a piece.
     if begin >= end:
         return state.reached, state.totals
     time = piece["time"].to_numpy()[begin:end]

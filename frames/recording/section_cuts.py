@@ -1,4 +1,4 @@
-"""What passes through horizontal cuts of a frame: rows over its displacements."""
+"""Forces through horizontal cuts of a frame: rows over its displacements."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from frames.assembly.system import System
     from frames.model.components import Level
 
-_LEVEL = 1e-6  # m: nodes that are no higher than this over a level are of it
+_LEVEL = 1e-6  # m: nodes that are no higher than this over a level belong to it
 
 
 class SectionCut(NamedTuple):
     """A horizontal cut: forces on all ends of elements, and those of members that cross it.
 
-    Forces of the nodes on them, of members as far as they cross; those of other elements cancel
-    in the resultant where both their ends lie on one side.
+    Forces of the nodes on them, of members as far as they cross; those of other elements cancel in
+    the resultant if both their ends are on one side.
     """
 
     above: BoolArray  # (n_nodes,)
@@ -48,7 +48,7 @@ class StoreyRows:
 
 
 def feet(heights: Sequence[float]) -> list[float]:
-    """Return where storeys are cut: below the lowest level, then above each but the last."""
+    """Return the elevations of storey cuts [m]: below the lowest level, above all but the last."""
     return [heights[0] - _LEVEL, *(height + _LEVEL for height in heights[:-1])]
 
 

@@ -1,7 +1,7 @@
-"""A frame made ready for time histories: what its runs share, and the arrays that each changes.
+"""A frame prepared for time histories: data that its runs share, and arrays that each changes.
 
-A time history of a small building takes as long to set up as to integrate. What was set up is kept
-by the very parts that the frame holds: they are frozen, so a frame that was changed holds others.
+A time history of a small building takes as long to set up as to integrate. Prepared frames are kept
+by the parts of their frame: these are frozen, so a changed frame has others.
 """
 
 from __future__ import annotations
@@ -65,11 +65,11 @@ _CODE = (type, types.ModuleType, types.FunctionType, types.BuiltinFunctionType, 
 
 
 class PreparedFrame:
-    """A frame in equilibrium under gravity, and what its results form of it alone.
+    """A frame in equilibrium under gravity, and the results that depend on it alone.
 
     No run changes it: runs work in arrays of their own (`fresh`, `restart`). The equilibrium is
-    found here if none is given. What two threads form at once is formed twice, the same. `like` is
-    another one with these features and levels: what is the same there is not formed again.
+    found here if none is given. Data that two threads form at once are formed twice, with equal
+    values. `like` is another one with these features and levels: equal parts are not formed again.
     """
 
     def __init__(
@@ -83,7 +83,7 @@ class PreparedFrame:
         self.model = copy.copy(model)  # as it is now
         self.features, self.level = features, level
         self.parts = list(_parts(vars(model)))
-        """Of the model, by which it is found again."""
+        """Parts of the model, its key in the store."""
         self._judged: xr.Dataset | None = None
         if state is None:
             before = like.state if like is not None and like.has_structure_of(self) else None
@@ -93,7 +93,7 @@ class PreparedFrame:
             self._take(like)
 
     def _take(self, like: PreparedFrame) -> None:
-        # What is formed of the structure, or differs in numbers that runs replace.
+        # Data formed of the structure, or different in numbers that runs replace.
         self.common = common_of(self.model, self.state, like.common)
         if "shape" in vars(like) and self.common.resultants is like.common.resultants:
             self.shape = like.shape
@@ -110,7 +110,7 @@ class PreparedFrame:
                 self.at_rest, self.template = like.at_rest, like.template
 
     def has_structure_of(self, other: PreparedFrame) -> bool:
-        """Return whether another one stands on such bearings as these, apart from their numbers."""
+        """Return True if another one has such bearings as these, apart from their numbers."""
         links, others = (each.model.bearings.values() for each in (self, other))
         count = len(self.parts) - 2 * len(links) - 2  # names and links, and the ends of dicts
         return (
@@ -124,7 +124,7 @@ class PreparedFrame:
         )
 
     def fresh(self, seconds: float | None = None) -> GravityState:
-        """Return the state at rest for one run to change; what was formed of it is shared."""
+        """Return the state at rest for one run to change; derived data are shared."""
         shared = self.state
         if shared.parts is not None:
             _ = shared.part_shift
@@ -141,7 +141,7 @@ class PreparedFrame:
         return mine
 
     def restart(self, mine: GravityState) -> None:
-        """Put a state that `fresh` gave back to rest."""
+        """Reset a state of `fresh` to rest."""
         shared = self.state
         spared = frozenset() if shared.run.has_reduced.any() else _REMADE
         for name in ("run", "contacts", "parts"):
@@ -163,34 +163,34 @@ class PreparedFrame:
 
     @cached_property
     def common(self) -> Common:
-        """What all results hold of the structure."""
+        """Common data of all results of the structure."""
         return common_of(self.model, self.state)
 
     @cached_property
     def can_track(self) -> bool:
-        """Whether what a run reaches can be taken up without Datasets."""
+        """True if the peaks of a run can be found without Datasets."""
         return can_track(self.state)
 
     @cached_property
     def devices(self) -> Devices:
-        """What peaks of the bearings are formed with."""
+        """Input of the bearings' peaks."""
         return devices_of(self.state)
 
     @cached_property
     def kinematics(self) -> Kinematics:
-        """Where the nodes stand and how they move."""
+        """Places and motions of the nodes."""
         transform = sparse.csr_array(self.state.system.transform)
         return kinematics_of(transform, self.common.of_structure())
 
     @cached_property
     def shape(self) -> Shape:
-        """What peaks of the structure are formed with."""
+        """Input of the structure's peaks."""
         accelerating = self.common.resultants.accelerating
         return shape_of(self.state, accelerating, self.kinematics)
 
     @cached_property
     def force_maps(self) -> ForceMaps:
-        """How forces follow from what is recorded."""
+        """Maps from the recorded quantities to forces."""
         return force_maps(self.model, self.state)
 
     @cached_property
@@ -204,23 +204,23 @@ class PreparedFrame:
 
     @cached_property
     def template(self) -> xr.Dataset:
-        """What the assumption check and the tables of peaks read of it."""
+        """Input of the assumption check and of the tables of peaks."""
         return without_histories_of(self.at_rest)
 
     def judged(self, data: xr.Dataset, found: PeakState) -> xr.Dataset:
-        """Return what the check reads of a run with all histories that reached `found`."""
+        """Return the check's input of a run with all histories and the peaks `found`."""
         if self._judged is None:
             self._judged = with_peak_state(data.drop_dims("time"), found)
         return self._judged
 
     @cached_property
     def doubts(self) -> tuple[str, ...]:
-        """What is strange about the model, as `gravity` warns of it."""
+        """Unusual properties of the model, as in the warnings of `gravity`."""
         return (*sanity_checks.sanity_warnings(self.model), *self.state.doubts)
 
     @cached_property
     def bytes(self) -> float:
-        """Memory of all that it refers to, but for code: with what its runs formed until now."""
+        """Memory of all that it refers to, code aside: with the data formed by its runs [bytes]."""
         seen: dict[int, object] = {}
         todo: list[object] = [self]
         while todo:
@@ -231,7 +231,7 @@ class PreparedFrame:
         return float(sum(map(sys.getsizeof, seen.values())))
 
     def is_of(self, parts: list[object], features: Features, level: object) -> bool:
-        """Return whether these are its parts: by identity, since what it holds is not replaced."""
+        """Return True if these are its parts: by identity, because its parts are not replaced."""
         alike = len(self.parts) == len(parts) and (self.features, self.level) == (features, level)
         return alike and all(a is b for a, b in zip(self.parts, parts, strict=True))
 
@@ -287,14 +287,14 @@ def _is_same(a: object, b: object) -> bool:
 
 
 def _parts(frame: Mapping[str, object]) -> Iterator[object]:
-    # What a frame holds, its bearings last.
+    # Parts of a frame, its bearings last.
     links = {"_bearings": frame["_bearings"]}
     yield from _pieces({name: each for name, each in frame.items() if name not in links})
     yield from _pieces(links)
 
 
 def _pieces(value: object) -> Iterator[object]:
-    # What a frame holds, down to what is frozen; matrices of superelements, which are not, as text.
+    # Parts of a frame, down to frozen ones; matrices of superelements, which are not, as text.
     if isinstance(value, dict):
         yield dict
         for key, each in value.items():

@@ -1,4 +1,4 @@
-"""The level "auto": a run again and again, with what the assumption check found missing."""
+"""The level "auto": repeated runs with the features that the assumption check found missing."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ Level: TypeAlias = str | Mapping[str, str]
 """One for all bearings, or "contact" by name: the others are at the level "pendulum"."""
 
 MOST_RUNS = 5
-"""Features and level settle in two or three runs; this bounds what each run may reveal anew."""
+"""Features and level settle in two or three runs; this limits repeated findings."""
 
 
 def escalate_level(
     analyse: Callable[[Features, Level], xr.Dataset], features: Features
 ) -> xr.Dataset:
-    """Run with `features`, and again with what was missing."""
+    """Run with `features`, and again with the missing ones."""
     level: Level = "pendulum"
     lines: list[str] = []
     for count in range(1, MOST_RUNS + 1):
@@ -53,7 +53,7 @@ def escalate_level(
 
 
 def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) -> None:
-    """Say in the check of a result of `escalate_level` that an earlier run ended otherwise."""
+    """Record in the check of `escalate_level` that an earlier run ended otherwise."""
     last, time = ends[-1]
     others = [
         k for k, (status, _) in enumerate(ends[:-1]) if status.is_complete != last.is_complete

@@ -1,4 +1,4 @@
-"""What is asked of a time history beside model and motion: options, checked at the door."""
+"""Arguments of a time history besides model and motion: options, checked on input."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _REDUCTION = 1e-3  # of peaks of displacement and base shear, between runs of th
 
 
 class Options(NamedTuple):
-    """What every run of an analysis has in common."""
+    """Common options of all runs of an analysis."""
 
     duration: float
     base: float
@@ -102,7 +102,7 @@ def check_options(
 
 
 def check_reduction(method: str, level: object, tolerance: float | None) -> None:
-    """Refuse what does not go together with a method."""
+    """Refuse options that do not suit a method."""
     if method == "direct" and tolerance is not None:
         msg = (
             f'reduction_tolerance = {tolerance!r} needs method="reduced": set it, or leave '

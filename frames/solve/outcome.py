@@ -1,4 +1,4 @@
-"""How an analysis ended, and whether what it computed can be relied on."""
+"""End of an analysis, and reliability of its results."""
 
 from __future__ import annotations
 
@@ -24,8 +24,9 @@ PROMISE = 1e-3
 """Largest share of the input by which the energy balance of a completed run may be open [-]."""
 
 ASKED_FOR = 1e-2
-"""The same for what the generalised-alpha method takes out, which is what it is chosen for; from
-`PROMISE` on a warning names the share."""
+"""The same for the energy removed by the generalised-alpha method on purpose; from `PROMISE` on a
+warning gives the share.
+"""
 
 LEAST_INPUT = 1e-6
 """Input over weight and effective radius below which it measures the energy balance [-]."""
@@ -49,7 +50,7 @@ class Outcome(NamedTuple):
 
 
 def energy_status(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]]:
-    """Judge a completed run by its energy balance, and by its sliders where they are bodies."""
+    """Check a completed run by its energy balance, and by its sliders if they are bodies."""
     gap, numerical, given = (
         float(largest(data, name).values)
         for name in ("energy_gap", "energy_numerical", "energy_input")
@@ -98,7 +99,7 @@ def _noted(name: str, number: float, text: str) -> tuple[Finding, ...]:
 
 
 def _tumbled(data: xr.Dataset) -> str:
-    """Return what is doubtful of a run in which a slider tumbled, or an empty string."""
+    """Return the doubt about a run in which a slider tumbled, or an empty string."""
     if "body_rotation" not in data and "peak_tilt" not in data:
         return ""
     tilt = largest(data, "tilt").values  # NaN without contact points
@@ -142,7 +143,7 @@ def final_status(
 
 
 def _lost(state: GravityState, dt: float) -> tuple[int, str] | None:
-    # The first bearing that failed in a run that went on, and what failed in words.
+    # The first bearing that failed in a run that continued, and the failed part in words.
     states = state.run.old
     failed = np.flatnonzero(states["failed"])
     if not len(failed):
@@ -167,7 +168,7 @@ def _lost(state: GravityState, dt: float) -> tuple[int, str] | None:
 
 
 def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
-    # What a bearing reached at the step that its limit ended: that step is in no history.
+    # Values of a bearing at the step that its limit ended: that step is in no history.
     k, run = int(state.run.counts["bearing"][0]), state.run
     if int(run.new["status"][k]) != status:
         return {}  # found otherwise, and not by a step in equilibrium
@@ -205,8 +206,8 @@ def loop_status(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]
 
 
 def _without_inertia(state: GravityState) -> str:
-    # Plates that turn without inertia have to be in equilibrium at every instant; where friction
-    # of a tilted slider and a rim let go, there may be none.
+    # Plates that rotate without inertia have to be in equilibrium at every instant; there may be
+    # none if the friction of a tilted slider and a rim is overcome.
     labels, inertia = state.system.dof_labels, state.system.mass.diagonal()
     turning = [
         labels[place].rsplit(" ", 1)[0]

@@ -1,4 +1,4 @@
-"""Where a run writes its steps: room for all of them, or a buffer that is emptied as it fills."""
+"""Storage of a run's steps: all of them, or a buffer that is emptied as it fills."""
 
 from __future__ import annotations
 
@@ -51,13 +51,13 @@ LEAST_ROWS = 16
 """Steps that a buffer holds at least."""
 
 PEAK_BYTES, MOST_ROWS = 6e6, 1024
-"""Memory [bytes] and steps where peaks alone are kept: they shall be in the processor's own."""
+"""Memory [bytes] and steps if peaks alone are kept: they must fit into the processor's cache."""
 
 
 class Gauges:
-    """What a run reached, taken up from what its loop records, without any Dataset.
+    """Peaks of a run, found from the records of its loop, without any Dataset.
 
-    Without `whole`, what stands on the bearings is left aside.
+    Without `whole`, the structure above the bearings is left out.
     """
 
     def __init__(self, analysis: PreparedFrame, *, whole: bool) -> None:
@@ -67,7 +67,7 @@ class Gauges:
         self._sums = Plausibility(state, analysis.common.resultants)
 
     def take(self, out: Output, states: Records, ground: Ground, first: int, last: int) -> None:
-        """Take up rows first <= k < last of what was recorded, which follow those before."""
+        """Add rows first <= k < last of the recorded steps, which follow those before."""
         self._bearings.take(states, out, ground, first, last)
         self._parts.take(out, first, last)
         shaking = ground_at(ground, out.time[first:last])
@@ -78,7 +78,7 @@ class Gauges:
         return self._bearings.reached() | self._parts.reached() | self._sums.reached()
 
     def peak_state(self, out: Output, states: Records, last: int) -> PeakState:
-        """Return all that was reached up to a row of what was recorded, and what is left there."""
+        """Return all peaks up to a row of the recorded steps, and the residual values there."""
         row = states[last]
         moved = row["displacement"][:, 6:8] - row["displacement"][:, :2]
         left = {
@@ -107,7 +107,7 @@ class _Buffer:
             state.model, state.contacts, rows, part_sizes(state.parts)
         )
         self.strains = StrainGauge(analysis.model, state)
-        """Of imported members that may yield."""
+        """Strains of imported members that may yield."""
 
     def renew(self, motion: GroundMotion, ground: Ground) -> None:
         """Make ready for a run under `motion`, which the loop integrates as `ground`."""
@@ -142,13 +142,13 @@ class _Buffer:
 
 
 class Recorder(_Buffer):
-    """What a run records into, and the result made of it.
+    """Storage of a run's records, and their result.
 
-    It refuses what a recording names and the result lacks, and what would not fit into memory.
-    With `every_peak` a run that records everything is judged by all of its quantities.
+    It refuses names of a recording that the result lacks, and records beyond the memory. With
+    `every_peak` a run that records everything is checked by all of its quantities.
     """
 
-    overlap = 2  # for what is formed over neighbours
+    overlap = 2  # for values formed over neighbours
 
     def __init__(
         self,
@@ -172,7 +172,7 @@ class Recorder(_Buffer):
         self._forces = ForceTracker(analysis.force_maps) if recording.forces else None
 
     def begin(self) -> None:
-        """Refuse what cannot be recorded."""
+        """Refuse a recording that is not possible."""
         recording = self._recording
         if self._is_whole:
             return
@@ -187,7 +187,7 @@ class Recorder(_Buffer):
         require_room(bytes_over_time(row), count, BUFFER)
 
     def data(self, done: int) -> xr.Dataset:
-        """Return the result of `done` base steps, or what the assumption check reads of it."""
+        """Return the result of `done` base steps, or the input of the assumption check."""
         rows = done - self.first + 1
         self.strains.take(self.out, 0, rows)
         data = self._dataset(rows, kept=self._is_whole)
@@ -202,7 +202,7 @@ class Recorder(_Buffer):
         return judged.assign_coords(coordinates).assign(variables)
 
     def without_histories(self, data: xr.Dataset) -> xr.Dataset:
-        """Return what the assumption check reads of a result that `data` gave."""
+        """Return the assumption check's input from a result of `data`."""
         if self._is_whole and self._every_peak:
             return without_histories_of(data)
         if not self._is_whole or not self._analysis.can_track:
@@ -222,7 +222,7 @@ class Recorder(_Buffer):
         return self._peaks_compiled(data.sizes["time"], whole=True).reached()
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
-        """Return the result, once: `data` with what the run records and the attributes given."""
+        """Return the result, once: `data` with the records of the run and the given attributes."""
         return judged if self._is_whole else with_exceeded(self._reduction.recorded(judged))
 
     def _peaks_compiled(self, count: int, *, whole: bool) -> Gauges:
@@ -251,7 +251,7 @@ class Recorder(_Buffer):
 
 
 class PeakRecorder(_Buffer):
-    """Takes up what runs reach one after the other, and keeps no step of them."""
+    """Peaks of one run after the other; keeps no steps."""
 
     def __init__(
         self, analysis: PreparedFrame, state: GravityState, is_stopped: Callable[[], bool]
@@ -261,7 +261,7 @@ class PeakRecorder(_Buffer):
         self._judged = analysis.template.copy()
 
     def serve(self, analysis: PreparedFrame, state: GravityState) -> bool:
-        """Take up runs of another analysis from now on, if their steps need the same room."""
+        """Switch to runs of another analysis, if their steps need the same storage."""
         own = self._state
         if _sizes(own) != _sizes(state):
             return False
@@ -278,7 +278,7 @@ class PeakRecorder(_Buffer):
         self._gauges = Gauges(self._analysis, whole=True)
 
     def data(self, done: int) -> xr.Dataset:
-        """Return what the assumption check reads of the run, until the next one is begun."""
+        """Return the assumption check's input of the run, until the next one begins."""
         rows = done - self.first + 1
         self._empty(rows)
         found = self._gauges.peak_state(self.out, self._states, rows - 1)
@@ -286,7 +286,7 @@ class PeakRecorder(_Buffer):
         return put_peak_state(self._judged, found, peak, self._analysis.common.variables)
 
     def without_histories(self, data: xr.Dataset) -> xr.Dataset:
-        """Return what the assumption check reads of a result that `data` gave."""
+        """Return the assumption check's input from a result of `data`."""
         return data
 
     def _empty(self, rows: int) -> None:
@@ -297,7 +297,7 @@ class PeakRecorder(_Buffer):
 
 
 def _sizes(state: GravityState) -> tuple[object, ...]:
-    # Of the arrays that steps are written to.
+    # Shape of the arrays that steps are written to.
     model = state.model
     own = len(model.load_b), len(model.load_e), len(model.props)
     return *own, state.contacts is None, part_sizes(state.parts)

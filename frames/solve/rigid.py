@@ -1,4 +1,4 @@
-"""The level 'rigid_body': one bearing and what stands on it, as a time history."""
+"""The level 'rigid_body': one bearing with its mass, as a time history."""
 
 from __future__ import annotations
 
@@ -181,7 +181,7 @@ def _prepare(state: GravityState) -> RigidRun:
 def _input(
     state: GravityState, motion: GroundMotion, interval: float, count: int
 ) -> tuple[RigidInput, RigidOutput]:
-    # What the run is given, and where it writes.
+    # Input of the run, and its output arrays.
     node = state.system.bearings[0].j
     load = np.tile(state.system.node_load[6 * node : 6 * node + 6], (count, 1))
     times = np.arange(count, dtype=np.float64) * interval
@@ -241,8 +241,8 @@ def _explicit_step(state: GravityState, run: RigidRun, explicit: float | None) -
 def _accelerations(
     state: GravityState, ground: Ground, times: FloatArray, force: FloatArray
 ) -> FloatArray:
-    # Of the top plate (n, 3), relative to the ground: of the forces at the same instant. The
-    # scheme's own belong to a place within its step.
+    # Acceleration of the top plate (n, 3), relative to the ground: of the forces at the same
+    # instant. The scheme's own belong to a place within its step.
     node = state.system.bearings[0].j
     load = state.system.node_load[6 * node : 6 * node + 3]
     mass = state.system.node_mass[node, :3]

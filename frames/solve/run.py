@@ -1,4 +1,4 @@
-"""One run of an analysis: constants of the time integration, the compiled loop, what came of it."""
+"""One run of an analysis: constants of the time integration, the compiled loop, its results."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ if TYPE_CHECKING:
 
 _FORCE_TOLERANCE = 1e-7  # of the total weight
 _MAX_ITERATIONS = 25
-_ERROR_TOLERANCE = 1e-3  # of histories over the displacement reached, where the program chooses
+_ERROR_TOLERANCE = 1e-3  # error of histories over the peak displacement, if the program chooses
 _HALVED_FROM = 5e-4  # tolerance below whose half the largest step is halved, below a fourth twice
-_ERROR_SHARE = 0.045  # of what a lasting force does to the pendulum: it does not last (calibrated)
-_ERROR_TIME = 8.0  # times sqrt(L / g), over which what rings gets out of phase (calibrated)
+_ERROR_SHARE = 0.045  # of a lasting force's effect on the pendulum: it ends (calibrated)
+_ERROR_TIME = 8.0  # times sqrt(L / g), time in which vibrations get out of phase (calibrated)
 _ERROR_EVENT = 1.5e-3  # s, step below which an error of force counts as an impulse (calibrated)
-_SMALLEST_REACH = 1e-3  # of the effective radius: what counts as reached from the start
+_SMALLEST_REACH = 1e-3  # of the effective radius: least peak displacement
 _ERROR_VERTICAL = 0.1  # share of a vertical error, which friction passes on, while pressed
 _ERROR_OPEN = 1.0  # share of it off the ground
 _PRODUCT = 3e-4  # cost of a multiplication over that of a bearing's state determination (measured)
 _PART = 0.5  # cost of a part that may yield over that of a bearing (measured)
 _SERVES = 2.0  # steps for which a new tangent is better than secants (measured)
-_SECANTS_SAVE = 2.5  # of what bearings share of a tangent, by secants (measured)
+_SECANTS_SAVE = 2.5  # factor on the bearings' share of a tangent, by secants (measured)
 _ENERGY_TOLERANCE = 2e-4  # of the energy moved, that contacts may make or lose in a step
 _ENERGY_FLOOR = 1e-6  # of weight times effective radius
 
@@ -57,7 +57,7 @@ NOT_CORRECTED = (
 
 
 class StepWriter(Protocol):
-    """Where runs write their steps: a `Recorder`, a `PeakRecorder`."""
+    """Storage of a run's steps: a `Recorder`, a `PeakRecorder`."""
 
     out: Output
     first: int
@@ -75,21 +75,21 @@ class StepWriter(Protocol):
         ...
 
     def data(self, done: int) -> xr.Dataset:
-        """Return the result of `done` base steps, or what the assumption check reads of it."""
+        """Return the result of `done` base steps, or the input of the assumption check."""
         ...
 
     def without_histories(self, data: xr.Dataset) -> xr.Dataset:
-        """Return what the assumption check reads of a result that `data` gave."""
+        """Return the assumption check's input from a result of `data`."""
         ...
 
 
 class Run(NamedTuple):
-    """What came of a run."""
+    """Results of a run."""
 
     data: xr.Dataset
-    """Its result, or where histories are made smaller what is judged."""
+    """Its result, or the checked part if histories are reduced."""
     judged: xr.Dataset
-    """What the assumption check read of it; the same attributes."""
+    """Input of the assumption check; the same attributes."""
     outcome: Outcome
     findings: Findings
 
@@ -101,7 +101,7 @@ def run_one(
     options: Options,
     recorder: StepWriter,
 ) -> Run:
-    """Run an analysis from a state at rest, which is changed, and judge what came of it."""
+    """Run an analysis from a state at rest, which is changed, and check the results."""
     settings = settings_of(state, options)
     ground = ground_of(motion, analysis.features, settings)
     recorder.renew(motion, ground)
@@ -128,7 +128,7 @@ def run_one(
 def _attrs(
     state: GravityState, settings: IntegratorSettings, options: Options
 ) -> dict[str, object]:
-    # Options of a run, and what its loop counted.
+    # Options of a run, and the counts of its loop.
     counts, tolerance = state.run.counts[0], settings.error_tolerance
     return {
         "recording": str(options.recording),
@@ -198,7 +198,7 @@ def estimated_error(state: GravityState, settings: IntegratorSettings) -> float:
 
 
 def _least_halvings(base: float, tolerance: float) -> int:
-    # Of the base step: small tolerances get small steps, whatever the estimate says.
+    # Error of the base step: small tolerances get small steps, for any estimate.
     if not tolerance <= 0.5 * _HALVED_FROM:
         return 0
     largest = LARGEST_STEP * 0.5 ** math.floor(math.log2(_HALVED_FROM / tolerance) + 1e-9)
@@ -215,7 +215,7 @@ def _tangent_worth(model: ReducedModel, parts: int) -> float:
 
 
 def _shared_worth(model: ReducedModel, parts: int) -> float:
-    # The same of what bearings share of it. Secants of the corrections make up for much of it.
+    # The bearings' share of it. Secants of the corrections reduce it.
     if not len(model.shared):
         return _tangent_worth(model, parts)
     bearings, unknowns = len(model.props), len(model.load_b)
@@ -230,7 +230,7 @@ def ground_of(motion: GroundMotion, features: Features, settings: IntegratorSett
 
 
 def begin(state: GravityState, ground: Ground, settings: IntegratorSettings) -> None:
-    """Set the accelerations at rest: the ground's first value acts on what has mass."""
+    """Set the accelerations at rest: the ground's first value acts on the masses."""
     run, basis = state.run, state.basis
     first = ground.acceleration[0]
     acceleration = basis.shaken @ first if first.any() else np.zeros(len(run.b) + len(run.e))

@@ -1,4 +1,4 @@
-"""How much a run depends on its step, and on a billionth of its ground motion."""
+"""Sensitivity of a run to its step, and to a billionth of its ground motion."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SENSITIVE = 0.01
 """Difference by that noise, over the value, from which on a peak is chance."""
 
 _FINER = 0.25  # of the tolerance: half the steps, for the error grows with their square
-_TOLERANCE = 1e-3  # where none is given: as of `time_history`
+_TOLERANCE = 1e-3  # default, as of `time_history`
 _OF_RUN = ("energy balance: error over input", "duration computed", "seconds of the time loop")
 _HISTORY = "bearing displacement, whole history"
 
@@ -38,7 +38,7 @@ def step_sensitivity(
     dt: float | None = None,
     **options: Any,
 ) -> pd.DataFrame:
-    """Run a time history three times: as asked, with half the step, and disturbed by a billionth.
+    """Run a time history three times: as given, with half the step, and disturbed by a billionth.
 
     Parameters
     ----------
@@ -47,22 +47,22 @@ def step_sensitivity(
     motion : GroundMotion
         Acceleration of the ground.
     duration, dt : float, optional
-        As of `time_history`. With ``dt=None`` a quarter of the tolerance stands for half the step.
+        As for `time_history`. With ``dt=None`` a quarter of the tolerance replaces half the step.
     **options
-        Further arguments of `time_history`, but for what is recorded.
+        Further arguments of `time_history`, except those of recording.
 
     Returns
     -------
     pandas.DataFrame
         By quantity of `peaks`, and for the whole history of bearing displacements: `value` and
-        `unit` of the run as asked (of the history its largest displacement), the relative
-        differences `halved` and `noise` of the other runs [-]; NaN where the value is zero. A run
-        that stopped is compared up to there.
+        `unit` of the given run (of the history its largest displacement), the relative differences
+        `halved` and `noise` of the other runs [-]; NaN if the value is zero. A run that stopped is
+        compared up to there.
 
     Raises
     ------
     TypeError
-        If an option says what is recorded.
+        If an option is one of recording.
 
     Warns
     -----
@@ -86,7 +86,7 @@ def step_sensitivity(
             raise TypeError(msg)
     asked = time_history(model, motion, duration, dt, **options)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AuditWarning)  # told of the first run
+        warnings.simplefilter("ignore", AuditWarning)  # same as in the first run
         if dt is None:
             finer = _FINER * (options.get("tolerance") or _tolerance(asked))
             halved = time_history(model, motion, duration, **(options | {"tolerance": finer}))

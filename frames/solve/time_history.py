@@ -69,50 +69,50 @@ def time_history(
     duration : float, optional
         Length of the analysis [s]; that of the motion if None. Beyond it the ground rests.
     dt : float, optional
-        Step [s]. None: the step of the motion, or its largest whole part of at most 0.005 s,
-        halved wherever the estimated error asks for it. A given step is halved only where Newton's
-        method fails, or where a contact that opens or closes would make or lose energy.
+        Step [s]. None: the step of the motion, or its largest whole part of at most 0.005 s, halved
+        if the estimated error is too large. A given step is halved only if Newton's method fails,
+        or if a contact that opens or closes would gain or lose energy.
     level : {"pendulum", "contact", "rigid_body"} or mapping
-        Level of fidelity of the bearings: one for all, or by name of bearing ("pendulum" for
-        those that it does not name). "rigid_body" takes one bearing with a mass on it. "auto":
-        the cheapest that is sufficient; the analysis is run, checked for its assumptions, and run
-        again with what was missing.
+        Level of fidelity of the bearings: one for all, or by name of bearing ("pendulum" for the
+        others). "rigid_body" needs one bearing with a mass on it. "auto": the cheapest that is
+        sufficient; the analysis is run, checked for its assumptions, and run again with the missing
+        features.
     method : {"direct", "reduced"}
-        "direct": all degrees of freedom. "reduced": the bearings' ones and few load-dependent
+        "direct": all degrees of freedom. "reduced": those of the bearings and few load-dependent
         vectors of the structure, in a run with few and runs with more, until two agree: for
         structures whose modes are many beside their bearings (docs/choices_structure.md).
     integrator : {None, "newmark", "corrected-newmark", "generalised-alpha", "explicit"}
         Time integration. None is Newmark's average acceleration, which conserves energy;
-        "corrected-newmark" adds what it misses in a step, of structures with links or hinges, so
-        that steps may be twice as long for the same error (docs/choices_time_step.md);
+        "corrected-newmark" adds its error in a step, for structures with links or hinges, so that
+        steps may be twice as long for the same error (docs/choices_time_step.md);
         "generalised-alpha" that of Chung and Hulbert (1993). At the level "rigid_body" None is
-        Bossak's implicit method, and "explicit" takes small equal steps of `dt`.
+        Bossak's implicit method, and "explicit" uses small equal steps of `dt`.
     spectral_radius : float
-        Of the generalised-alpha method at infinite frequency [-], in [0, 1]; 1 takes nothing out.
+        Spectral radius of the generalised-alpha method at infinite frequency [-], in [0, 1]; 1 is
+        without numerical damping.
     tolerance : float, optional
-        Error that the bearings' displacement histories may have, over the displacement reached,
-        where the program controls it: 1e-3 by default. Between 5e-5 and 5e-4 the error is within a
-        factor of three of it (docs/choices_time_step.md). At the level "rigid_body" that of a step
-        over the effective radius: 1e-8.
+        Allowed error of the bearings' displacement histories, over the peak displacement, if the
+        program controls it: 1e-3 by default. Between 5e-5 and 5e-4 the error is within a factor of
+        three of it (docs/choices_time_step.md). At the level "rigid_body" that of a step over the
+        effective radius: 1e-8.
     reduction_tolerance : float, optional
-        Of the method "reduced": largest difference of two runs in the peaks of bearing
+        Tolerance of the method "reduced": largest difference of two runs in the peaks of bearing
         displacement and base shear, 1e-3 by default; ten times that in axial forces, floor
         accelerations in plan, storey drifts and yielding parts, a hundred times in vertical
-        accelerations. What is larger in the end is named by a line of the assumption check.
+        accelerations. Larger final differences are in a line of the assumption check.
     record_every : int
         Record every so many base steps: ``Recording(every=record_every)``.
     recording : Recording, optional
-        What is recorded: steps, variables, bearings, nodes, windows around impacts, extremes;
-        everything if None. Not together with `record_every`. The assumption check, `peaks` and the
-        energy balance see all base steps, whatever is recorded. At the level "rigid_body"
-        memory is taken for all of them while it runs, and with `every` alone only the recorded ones
-        are seen.
+        Recorded steps, variables, bearings, nodes, windows around impacts, extremes; everything if
+        None. Not together with `record_every`. The assumption check, `peaks` and the energy balance
+        cover all base steps, for any recording. At the level "rigid_body" memory is needed for all
+        of them during the run, and with `every` alone only the recorded ones are covered.
     on_failure : {"warn", "raise"}
-        A run that fails hands back what was computed, with a warning and its reason in the
-        attributes; or raises AnalysisError, whose `data` holds the same.
+        "warn": a run that fails returns its results so far, with a warning and its reason in the
+        attributes. "raise": it raises AnalysisError, whose `data` holds the same.
     features : Features, optional
-        What is modelled; everything if None. The assumption check tells whether what was left out
-        mattered. Not together with ``level="auto"``, which chooses for itself.
+        Modelled features; all if None. The assumption check shows if an omission mattered. Not
+        together with ``level="auto"``, which chooses for itself.
     progress : callable or bool, optional
         Called with the share done (0 to 1) some fifty times; True writes a bar to the standard
         error, in a notebook too.
@@ -121,11 +121,10 @@ def time_history(
     -------
     xarray.Dataset
         See docs/results.md. Attributes hold status, message, versions, options, timings and the
-        assumption check: for each feature left out whether it mattered, with a number. A run whose
-        energy balance is open by more than 0.1 % of the input has the status "inaccurate"
-        and warns; what "generalised-alpha" takes out may reach 1 %, and is named by a warning from
-        0.1 % on. An AuditWarning tells of a completed run in whose assumption check a line begins
-        with "!".
+        assumption check: the effect of each feature left out, with a number. A run whose energy
+        balance is open by more than 0.1 % of the input has the status "inaccurate" and warns; the
+        dissipation of "generalised-alpha" may reach 1 %, with a warning from 0.1 % on. An
+        AuditWarning reports a completed run in whose assumption check a line begins with "!".
 
     Raises
     ------
@@ -136,7 +135,7 @@ def time_history(
     lir_element.AnalysisError
         If there is no equilibrium under gravity, or (with ``on_failure="raise"``) a run fails.
     lir_element.AnalysisInterrupted
-        After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed. A plain
+        After Ctrl-C, a KeyboardInterrupt whose `data` holds the results so far. A plain
         KeyboardInterrupt before the first step.
 
     Examples
@@ -216,7 +215,7 @@ class Analysis:
     level : {"pendulum", "contact"} or mapping
         Level of fidelity of the bearings, as in `time_history`.
     features : Features, optional
-        What is modelled; everything if None.
+        Modelled features; all if None.
 
     Raises
     ------
@@ -281,7 +280,7 @@ class Analysis:
         Returns
         -------
         xarray.Dataset
-            That of `time_history`, to the bit.
+            The result of `time_history`, to the bit.
 
         Raises
         ------
@@ -317,7 +316,7 @@ _DIRECT = METHODS[0]
 def _run_prepared(
     prepared: PreparedFrame, state: GravityState, motion: GroundMotion, options: Options
 ) -> tuple[Run, Recorder]:
-    # A run from a state at rest; what is recorded joins its result in the end.
+    # A run from a state at rest; the records join its result in the end.
     recorder = Recorder(prepared, state, options.steps, options.recording)
     return run_one(prepared, state, motion, options, recorder), recorder
 
@@ -325,7 +324,7 @@ def _run_prepared(
 def _ended(
     data: xr.Dataset, outcome: Outcome, doubts: tuple[str, ...], on_failure: str
 ) -> xr.Dataset:
-    # Warns of how a run ended, and of what the assumption check of a completed one marks.
+    # Warns of the end of a run, and of the findings of a completed one's assumption check.
     report(data, *outcome, on_failure=on_failure, stacklevel=4)
     if doubts and "failed_at" not in data.attrs:
         what = "completed with a warning: " + "; ".join(doubts)

@@ -1,1 +1,1 @@
-"""What is known before a motion: gravity, natural modes, checks of the model."""
+"""Analyses before a motion: gravity, natural modes, checks of the model."""

@@ -1,4 +1,4 @@
-"""The method "reduced": few Ritz vectors, and more of them until what they leave out is small."""
+"""The method "reduced": few Ritz vectors, and more of them until the omitted part is small."""
 
 from __future__ import annotations
 
@@ -31,8 +31,9 @@ ALL = 0.8
 """Share of all modes from which on all are taken."""
 
 BEARINGS, FLOORS, VERTICAL = 1.0, 10.0, 100.0
-"""What is allowed over the tolerance: floors, storeys and axial forces follow impacts, and the
-vertical accelerations of nodes each column of its own."""
+"""Factors on the tolerance: floors, storeys and axial forces follow impacts, and the vertical
+accelerations of nodes follow their own columns.
+"""
 
 PARTS = {
     "bearing_displacement": (("displacement",), ("displacement",), BEARINGS),
@@ -52,11 +53,11 @@ and the share of the tolerance."""
 
 
 class Refined(NamedTuple):
-    """What the method adds to a run."""
+    """Additions of the method to a run."""
 
     attrs: dict[str, float]
     doubt: str
-    """What is larger than the tolerance asked for, or an empty string."""
+    """Quantities beyond the tolerance, or an empty string."""
 
 
 def refined(
@@ -68,7 +69,7 @@ def refined(
 ) -> Refined:
     """Run a structure with few vectors, then with more of them, until two runs agree.
 
-    Where most of the modes would be needed, all are taken, as by the method "direct".
+    If most of the modes would be needed, all are used, as by the method "direct".
     """
     prepared = prepare(model, features, level)
     whole = prepared.system, prepared.geometric, model.damping

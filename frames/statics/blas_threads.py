@@ -1,4 +1,4 @@
-"""Threads of the dense algebra: none besides the caller's where matrices are small.
+"""Threads of the dense algebra: only the caller's if matrices are small.
 
 Threads of OpenBLAS wait for more work by spinning, some 20 ms after each product, on processors
 that other runs could use.

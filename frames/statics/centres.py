@@ -1,4 +1,4 @@
-"""Centres of mass and of stiffness of a frame's floors, and what lifting it at a bearing takes."""
+"""Centres of mass and of stiffness of a frame's floors, and its stiffness against lifting."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.model.frame_data import FrameData
 
-_TURNS = 1e-9  # of the plan's diagonal squared: what turns less has no centre of stiffness
+_TURNS = 1e-9  # of the plan's diagonal squared: less rotation gives no centre of stiffness
 
 
 class FloorCentres(NamedTuple):
@@ -26,17 +26,18 @@ class FloorCentres(NamedTuple):
     z: float  # m
     mass: float  # kg
     mass_centre: tuple[float, float]  # m
-    # where a lateral force does not turn the level, the bearings held [m]; NaN if it cannot turn
+    # place at which a lateral force does not rotate the level, the bearings held [m]; NaN if it
+    # cannot rotate
     stiffness_centre: tuple[float, float]
     sides: tuple[float, float]  # extent of the level's nodes along x and y [m]
 
 
 def floor_centres(frame: FrameData) -> list[FloorCentres]:
-    """Return the centres of mass and stiffness of each level above the bearings, from below.
+    """Return the centres of mass and stiffness of each level above the bearings, from below [m].
 
-    The centre of stiffness is where a force on this level alone, spread as its masses, turns them
-    by nothing in the mean; the other levels are free, the bearings held. On a rigid diaphragm it
-    is the centre of rigidity of usual programs.
+    The centre of stiffness is the place at which a force on this level alone, spread as its masses,
+    rotates them by zero in the mean; the other levels are free, the bearings held. On a rigid
+    diaphragm it is the centre of rigidity of usual programs.
     """
     system = assemble(frame)
     index = {name: k for k, name in enumerate(system.node_names)}

@@ -1,4 +1,4 @@
-"""The nonlinear equilibrium under permanent loads, also where Newton's method needs a way to it.
+"""The nonlinear equilibrium under permanent loads, with a path if Newton's method fails.
 
 Nonlinear parts of the structure are elastic there.
 """
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 _FORCE_TOLERANCE = 1e-9  # of the total weight
 _MAX_ITERATIONS = 100
 _SOFTNESSES = (0.1, 1e-2, 1e-3)  # stiffness of the pendulum over that of friction: starts
-_FACTORS = (0.1, 0.3, 0.7)  # by which it is brought down, the next where one fails
+_FACTORS = (0.1, 0.3, 0.7)  # to which it is reduced, the next if one fails
 _MOST_STAGES = 60
 _YIELDS = ("yield_displacement", "interface_yield", "torsion_yield")
 
@@ -64,11 +64,10 @@ def find_equilibrium(
 ) -> Equilibrium:
     """Find the equilibrium of a frame under its permanent loads.
 
-    Newton's method starts from the linear solution. Where it fails, friction is softened: an
-    elastic sliding before slip that leaves it ten times as stiff as the pendulum, and is brought
-    down to the true one stage by stage, each from the equilibria before. The bearings are at rest
-    before each solution, so that the last one is the equilibrium that was asked for. `like` is of
-    the same basis and other bearings.
+    Newton's method starts from the linear solution. If it fails, friction is softened: the elastic
+    stiffness before sliding is ten times that of the pendulum, and is raised to the true one stage
+    by stage, each from the equilibria before. The bearings are at rest before each solution, so
+    that the last one is the true equilibrium. `like` is of the same basis and other bearings.
 
     Shapes: linear (n_free,).
     """
@@ -164,8 +163,8 @@ def _next_guesses(
 
 def _soften(props: Records, true: Mapping[str, FloatArray], softness: float) -> None:
     # Elastic sliding before slip with which each contact is 1 / softness times as stiff as the
-    # pendulum: mu N / u = N / (softness L), (5.4). The same for all, for where the interface is
-    # softer than the pendulum no slider finds its place.
+    # pendulum: mu N / u = N / (softness L), (5.4). The same for all, because no slider finds its
+    # place if the interface is softer than the pendulum.
     low = least_coefficients(props)
     slid = softness * props["length"][:, None] * low
     held = np.where(props["fused"] == 0, props["interface_friction"], 0.0)
@@ -185,8 +184,8 @@ def _soften(props: Records, true: Mapping[str, FloatArray], softness: float) -> 
 def _raise_failure(
     system: System, run: IntegrationState, status: RunStatus, linear: FloatArray
 ) -> None:
-    # A bearing that lifts is the cause, whatever Newton's method made of it; then limits. What
-    # Newton's last trial lifted where it failed says nothing: the linear solution does.
+    # A bearing that lifts is the cause, for any end of Newton's method; then limits. Lifting in
+    # Newton's last trial says nothing: the linear solution does.
     lifted = run.new["axial_force"] <= 0.0
     beyond = np.flatnonzero(run.new["status"] != int(RunStatus.OK))
     if status is RunStatus.OK and not (lifted.any() or len(beyond)):
@@ -219,7 +218,7 @@ def force_tolerance(system: System, relative: float) -> float:
 
 
 def put_at_rest(system: System, parts: NonlinearElements, displacement: FloatArray) -> None:
-    """Let nonlinear parts start from what permanent loads displace.
+    """Start nonlinear parts from the displacements under permanent loads.
 
     Shapes: displacement (n_free,).
     """

@@ -42,9 +42,9 @@ def gravity(
     features: Features | None = None,
     level: str | Mapping[str, str] = "pendulum",
 ) -> GravityState:
-    """Bring a frame into equilibrium under its permanent loads.
+    """Return a frame in equilibrium under its permanent loads.
 
-    The members' axial forces of a first, linear solution give the geometric stiffness; the
+    A first, linear solution gives the members' axial forces and so the geometric stiffness. The
     bearings are then solved with all their nonlinearity, so that their axial forces are those of
     the equilibrium.
 
@@ -53,8 +53,8 @@ def gravity(
     frame : Frame
         The model, with at least one bearing.
     features : Features, optional
-        What is modelled; everything if None. Without vertical coupling the equilibrium is sought
-        again, the bearings' axial forces of the first one being their constant loads.
+        Modelled features; all if None. Without vertical coupling the equilibrium is found again,
+        with the bearings' axial forces of the first one as their constant loads.
     level : str or mapping
         Level of fidelity of the bearings, one for all or by name of bearing ("pendulum" for those
         that it does not name).
@@ -73,7 +73,7 @@ def gravity(
     AnalysisError
         If there is no equilibrium, or a bearing carries no compression.
     KeyboardInterrupt
-        After Ctrl-C: there is no equilibrium yet that could be handed back.
+        After Ctrl-C: there is no equilibrium to return yet.
 
     Warns
     -----
@@ -102,8 +102,8 @@ def equilibrium_of(
 ) -> GravityState:
     """Return the state of `gravity`, to the bit.
 
-    `like` is that of the same structure on other bearings, with these features and levels: what
-    does not depend on bearings is taken from there.
+    `like` is that of the same structure on other bearings, with these features and levels: data
+    independent of bearings come from there.
     """
     prepared = prepare(frame, features, level, like)
     began = perf_counter()
@@ -210,7 +210,7 @@ def at_rest(
 
 
 def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[str, str]:
-    """Look up the level of each bearing."""
+    """Return the level of each bearing."""
     require_type("level", level, (str, Mapping), "a level, or levels by name of bearing")
     given = dict.fromkeys(names, level) if isinstance(level, str) else dict(level)
     unknown = sorted(set(given) - set(names))

@@ -41,7 +41,7 @@ class GravityState:
     basis : Basis
         The frame in bearing coordinates.
     model, run : ReducedModel, IntegrationState
-        What the kernels work on; `run` holds the equilibrium as committed state.
+        Input of the kernels; `run` holds the equilibrium as committed state.
     contacts : Contacts or None
         Sliders of the bearings at the level 'contact'.
     displacement : ndarray, (n_free,)
@@ -51,7 +51,7 @@ class GravityState:
     seconds : float
         Time of computation, compilation aside [s].
     load_path : LoadPath
-        What the bearings carry of the weight above them, and what supports take past them.
+        Forces of the bearings under the weight above them, and forces of supports beside them.
     parts : NonlinearElements or None
         Links and hinged members, at rest.
 
@@ -81,7 +81,7 @@ class GravityState:
 
     @cached_property
     def part_shift(self) -> FloatArray:
-        """How forces of nonlinear parts displace what has no mass, (n_free, m) [m/N, ...]."""
+        """Displacements of massless DOFs by forces of nonlinear parts, (n_free, m) [m/N, ...]."""
         return self.basis.shift(self.system.part_rows.T.toarray())
 
     @property
@@ -91,14 +91,14 @@ class GravityState:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What is strange about the model, a sentence each: lost loads, numbers in other units."""
+        """Unusual properties of the model, a sentence each: lost loads, numbers in other units."""
         found = sanity_warnings(self.system, self.axial_forces, self.held_periods)
         lost = self.load_path.sentence()
         beside = held_sideways(self.system, self.node_geometric, self.basis, self.axial_forces)
         return (*([lost] if lost else []), *beside, *self._vectors(), *found)
 
     def _vectors(self) -> list[str]:
-        # What stands for all modes of a large structure.
+        # Substitute for all modes of a large structure.
         if not is_large(self.system):
             return []
         return [

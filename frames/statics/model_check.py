@@ -30,17 +30,17 @@ if TYPE_CHECKING:
 
 SHOWN_PERIODS = 3
 SHOWN = 12
-"""How many bearings a printed table lists; the rest is in `ModelCheck.bearings`."""
+"""Number of bearings in a printed table; the rest is in `ModelCheck.bearings`."""
 
 
 @dataclass(frozen=True, repr=False)
 class ModelCheck:
-    """What a frame amounts to; prints as a table.
+    """Totals of a frame (mass, loads, periods, pressures); prints as a table.
 
     Attributes
     ----------
     name : str
-        Of the frame.
+        Name of the frame.
     mass : float
         In all [kg].
     weight : float
@@ -48,23 +48,23 @@ class ModelCheck:
     loads : tuple of 3 floats
         Sum of the permanent forces along x, y, z besides the weight of the masses [N].
     carried : float
-        What the bearings carry [N].
+        Load of the bearings [N].
     supports : tuple of (str, float)
-        Supports of the structure above the bearings, and what each takes past them [N].
+        Supports of the structure above the bearings, and the load of each [N].
     periods : tuple of float
-        The first three on a fixed base (nodes i and j move together), longest first [s];
-        none where nothing stands on the bearings that could move.
+        The first three periods on a fixed base (nodes i and j move together), longest first [s];
+        none if nothing above the bearings can move.
     isolated_period : float
-        Of the mass on the bearings, as a pendulum [s].
+        Period of the mass on the bearings, as a pendulum [s].
     bearings : tuple of BearingLoad
-        Name, axial force [N], pressure [Pa], settlement [m], period [s], and slip of the interface
-        that holds without rims beside the one at which the sliders' overlap ends [m], of each.
+        Name, axial force [N], pressure [Pa], settlement [m], period [s], and the stable limit of
+        interface slip without rims beside the slip at the end of the sliders' overlap [m], of each.
     motion : tuple of (str, str)
         Facts of the motion in words; empty without one.
     doubts : tuple of str
-        What is strange, a sentence each.
+        Unusual values, a sentence each.
     failure : str
-        Why there is no equilibrium under permanent loads; empty where there is.
+        Reason that there is no equilibrium under permanent loads; empty if there is one.
 
     Examples
     --------
@@ -90,7 +90,7 @@ class ModelCheck:
 
     @property
     def ok(self) -> bool:
-        """Whether there is an equilibrium, and nothing is strange."""
+        """True if there is an equilibrium, and nothing is unusual."""
         return not (self.doubts or self.failure)
 
     def __str__(self) -> str:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 BearingStiffness = Literal["sliding", "sticking", "fixed"]
-"""How bearings count; in its place go their lateral stiffnesses (n_bearings,) [N/m]."""
+"""Stiffness of bearings; or their lateral stiffnesses (n_bearings,) [N/m]."""
 
 
 _LARGE = 1500  # displacements and rotations of nodes, above which sparse matrices are the faster
@@ -44,10 +44,10 @@ class Modes:
     shapes : ndarray, (n_nodes, 6, n)
         Nodal displacements of each mode, scaled to a modal mass of 1 kg.
     mass_ratios : ndarray, (n, 3)
-        Share of the total mass that takes part along x, y, z; 0 where there is none.
+        Share of the total mass in the mode along x, y, z [-]; 0 if there is none.
     torsion_ratios : ndarray, (n,)
-        Share of the rotational inertia about the vertical through the centre of mass that takes
-        part; 0 where there is none.
+        Share of the rotational inertia about the vertical through the centre of mass in the mode
+        [-]; 0 if there is none.
 
     Examples
     --------
@@ -93,9 +93,9 @@ def modes(
     count : int
         Number of modes, at least 1; at most those that have mass.
     bearings : {"sliding", "sticking", "fixed"} or ndarray, (n_bearings,)
-        How the bearings count: with the pendulum stiffness N/L sideways while sliding, with their
-        tangent stiffness at rest under gravity, or held rigidly (nodes i and j move together); or
-        their lateral stiffnesses, as effective ones at a displacement [N/m].
+        Stiffness of the bearings: the pendulum stiffness N/L sideways while sliding, their tangent
+        stiffness at rest under gravity, or held rigidly (nodes i and j move together); or their
+        lateral stiffnesses, for example effective ones at a displacement [N/m].
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Whether the bearings' axial forces follow overturning, and where the mass above them stands."""
+"""Overturning in the bearings' axial forces, and place of the mass above them."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ _NOTHING = 1e-6
 
 
 class Overturning(NamedTuple):
-    """What the bearings carry of an overturning moment, by the direction of the motion."""
+    """Share of the bearings in an overturning moment, by the direction of the motion."""
 
-    x: float  # share that their axial forces carry [-]; 1 where there is no moment to carry
+    x: float  # share of their axial forces [-]; 1 if there is no moment
     y: float
     bearings: int  # how many bearings there are
 
     @property
     def follows(self) -> bool:
-        """Whether the axial forces follow overturning in both directions."""
+        """True if the axial forces follow overturning in both directions."""
         return min(self.x, self.y) >= FOLLOWS
 
     def sentence(self) -> str:
-        """Return why axial forces are not known; empty where they are."""
+        """Return the reason that axial forces are unknown; empty if they are known."""
         if self.follows:
             return ""
         if self.bearings == 1:
@@ -62,12 +62,12 @@ class Overturning(NamedTuple):
 
 
 def overturning_share(system: System) -> Overturning:
-    """Return the share of an overturning moment that the bearings' axial forces carry.
+    """Return the share of the bearings' axial forces in an overturning moment [-].
 
-    Two static loads along each direction, bearings as linear springs: every mass above the
-    bearings pushed sideways, whose moment about the tops of the bearings is the sum of m (z - z_t),
-    and vertical forces on the tops of the bearings that rise linearly over the plan. What the
-    bearings do not carry of either moment goes to supports that hold the structure's tilt.
+    Two static loads along each direction, bearings as linear springs: every mass above the bearings
+    pushed sideways, whose moment about the tops of the bearings is the sum of m (z - z_t), and
+    vertical forces on the tops of the bearings that rise linearly over the plan. The rest of either
+    moment goes to supports that hold the structure's tilt.
     """
     tops = np.array([placed.j for placed in system.bearings])
     mass = np.where(system.above_bearings, system.node_mass[:, 0], 0.0)
@@ -112,7 +112,7 @@ def overturning_share(system: System) -> Overturning:
 
 
 def unknown_axial_forces(frame: FrameData) -> str:
-    """Return why the axial forces of a frame's bearings are not known; empty where they are."""
+    """Return the reason that bearings' axial forces are unknown; empty if they are known."""
     return overturning_share(assemble(frame, None, tuple(frame.bearings))).sentence()
 
 

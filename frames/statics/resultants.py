@@ -1,13 +1,13 @@
 """Equilibrium of the isolated structure as a whole, and nodes that are accelerated beyond reason.
 
-Both are formed from what is recorded: forces of bearings against weight and inertia, about all axes
-about which the structure is held by its bearings alone.
+Both are formed from records: forces of bearings against weight and inertia, about all axes about
+which the structure is held by its bearings alone.
 
 A displacement without mass has an acceleration, the second derivative of a static one. It jumps
-wherever friction turns round or slips, and no step gives it: in Newmark's rule it rings from step
-to step, undamped, and masses that are next to nothing ring so fast that no step follows. What has a
-mass is accelerated by the forces on it; the rest is said to be accelerated as the elastic structure
-would carry it along, forces of bearings and nonlinear parts on it taken to stay as they are.
+when friction reverses or slips, and no step resolves it. In Newmark's rule it rings from step to
+step, undamped, and negligible masses ring so fast that no step follows. Masses are accelerated by
+the forces on them. The rest moves with the elastic structure, with unchanged forces of bearings and
+nonlinear parts on it.
 """
 
 from __future__ import annotations
@@ -33,11 +33,13 @@ if TYPE_CHECKING:
 
 FASTEST = 1e-3
 """Own period of a displacement, all others held, over sqrt(L / g) of the bearings, below which its
-mass counts as none: half a millisecond, a tenth of the largest step (a choice)."""
+mass counts as none: half a millisecond, a tenth of the largest step (a choice).
+"""
 
 LIGHTEST = 1e-3
-"""Besides, of translations: their mass over that on a bearing, of stiff ties between floors' masses
-being no masses that are next to nothing (a choice)."""
+"""Further condition for translations: their mass over that on a bearing, because floors' masses on
+stiff ties are not negligible (a choice).
+"""
 
 
 def accelerating(state: GravityState, stiffness: SparseMatrix, light: BoolArray) -> FloatArray:
@@ -60,12 +62,12 @@ def accelerating(state: GravityState, stiffness: SparseMatrix, light: BoolArray)
 
 
 def _carries_along(state: GravityState, light: BoolArray) -> bool:
-    # Whether something without mass, or next to none, is not what the basis has no mass of.
+    # True if a DOF of little or no mass is not one that the basis has without mass.
     return bool(light[state.basis.bearing_dofs].any() or _has_light_nodes(state, light))
 
 
 def _has_light_nodes(state: GravityState, light: BoolArray) -> bool:
-    # Whether a displacement of the structure has so little mass that it counts as none.
+    # True if a displacement of the structure has so little mass that it counts as none.
     return bool((light & (state.system.mass.diagonal() > 0.0)).any())
 
 
@@ -85,7 +87,8 @@ def without_inertia(state: GravityState, held: FloatArray) -> BoolArray:
 
 
 def _springs(state: GravityState) -> FloatArray:
-    # The bearings pressed as at rest: what restores along the pendulum, and the axial contact.
+    # The bearings pressed as at rest: the restoring stiffness of the pendulum, and the axial
+    # contact.
     system = state.system
     values = np.zeros((len(system.bearings), 6))
     for k, (_, _, _, bearing) in enumerate(system.bearings):
@@ -102,12 +105,12 @@ _AT_ONCE = 256  # steps, of which the accelerations of all nodes are formed toge
 
 
 class Resultants:
-    """Sums of all forces on what stands on bearings alone.
+    """Sums of all forces on the parts that only bearings support.
 
-    A rigid motion q_r of those parts of the structure that no support holds takes no elastic force:
-    ``q_r' (M a + K_g q + B' f - p)`` is the sum of inertia, of what axial forces make of
-    displacements, of bearing forces and of loads, which is zero in equilibrium. Sums that supports
-    or the fixed rotations of a node share in are not formed.
+    A rigid motion q_r of the parts of the structure without supports causes no elastic force:
+    ``q_r' (M a + K_g q + B' f - p)`` is the sum of inertia, of the axial forces' effect on
+    displacements, of bearing forces and of loads, which is zero in equilibrium. Sums with forces of
+    supports or of fixed rotations of a node are not formed.
     """
 
     def __init__(self, state: GravityState) -> None:
@@ -137,14 +140,14 @@ class Resultants:
         self._give = sparse.csr_array(moves.multiply(moves))  # of each spring between its ends
         self._light = without_inertia(state, present.diagonal())
         self.accelerating = accelerating(state, present, self._light)
-        """How accelerations of b and eta accelerate the free displacements, (n_free, n)."""
+        """Accelerations of the free displacements by those of b and eta, (n_free, n)."""
         self.has_light_nodes = _has_light_nodes(state, self._light)
-        """Whether nodes have so little mass that no step follows it."""
+        """True if nodes have so little mass that no step follows it."""
         self._over_a = np.asarray(system.mass @ motions).T @ self.accelerating
         self._over_ground = motions.T @ system.inertia_load
         self._over_force = np.asarray(system.bearing_rows @ motions).T
         self.nodes = _Nodes(state)
-        """Those with mass."""
+        """Nodes with mass."""
 
     def serves(self, state: GravityState) -> bool:
         """Return whether these are the sums of the same structure on other bearings."""
@@ -156,7 +159,7 @@ class Resultants:
     def of(
         self, out: Output, states: Records, ground: FloatArray, first: int, last: int
     ) -> FloatArray:
-        """Return what is left of all forces at rows first <= k < last of what was recorded."""
+        """Return the sum of all forces at rows first <= k < last of the recorded steps."""
         rows = slice(first, last)
         x = np.hstack([out.b[rows], out.e[rows], out.beyond[rows]])
         rates = np.hstack([out.a_b[rows], out.a_e[rows]])
@@ -172,8 +175,8 @@ def _times(steps: FloatArray, rows: FloatArray) -> FloatArray:
 
 
 def _rigid_motions(state: GravityState) -> tuple[FloatArray, FloatArray, float]:
-    # Rigid motions (n_free, 6) of what bearings alone hold, which of them nothing else resists,
-    # and half the extent of the structure.
+    # Rigid motions (n_free, 6) of the parts on bearings alone, those without other resistance, and
+    # half the extent of the structure.
     system = state.system
     transform = sparse.csr_array(system.transform)
     ends = [placed.i for placed in system.bearings]
@@ -228,7 +231,7 @@ class Plausibility:
         self._reached: dict[str, Extreme] = {}
 
     def take(self, out: Output, states: Records, ground: FloatArray, first: int, last: int) -> None:
-        """Take up rows first <= k < last of what was recorded; arguments as `Resultants.of`."""
+        """Add rows first <= k < last of the recorded steps; arguments as `Resultants.of`."""
         if first >= last:
             return
         time = out.time[first:last]
@@ -237,7 +240,7 @@ class Plausibility:
         self._keep("violence", self._violence(out, ground, first, last))
 
     def reached(self) -> dict[str, Extreme]:
-        """Return what was reached, by quantity."""
+        """Return the peaks by quantity."""
         return dict(self._reached)
 
     def _keep(self, name: str, now: Extreme) -> None:
@@ -269,7 +272,7 @@ class Plausibility:
 
 
 def moving_mass(state: GravityState) -> FloatArray:
-    """Return the masses of the nodes that can move (n_nodes, 3), 0 along what supports hold [kg].
+    """Return the masses of the nodes that can move (n_nodes, 3), 0 along supports [kg].
 
     Shapes: result (n_nodes, 3).
     """

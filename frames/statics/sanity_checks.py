@@ -1,7 +1,7 @@
-"""Whether a frame under its permanent loads, and a motion, can be what was meant: doubts by name.
+"""Plausibility of a frame under its permanent loads, and of a motion: doubts by name.
 
-What is judged here needs the equilibrium under gravity: pressures, settlements, periods. The
-bounds are wide; a sentence comes where a number was probably given in another unit.
+These checks need the equilibrium under gravity: pressures, settlements, periods. The bounds are
+wide; a sentence appears if a number is probably in another unit.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 USUAL_LOAD_RATIO = (0.15, 6.0)
-"""Load of all bearings over their design loads, where those are given [-]."""
+"""Load of all bearings over their design loads, if those are given [-]."""
 
 DENSEST, LIGHTEST = 3000.0, 5.0
 """Mass above the bearings over the space that it fills [kg/m3]: that of solid concrete, and a
@@ -57,7 +57,7 @@ class BearingLoad(NamedTuple):
 
 
 def bearing_loads(system: System, axial_forces: FloatArray) -> tuple[BearingLoad, ...]:
-    """Return what each bearing carries under permanent loads (n_bearings,)."""
+    """Return the load of each bearing under permanent loads (n_bearings,)."""
     return tuple(
         BearingLoad(
             name=name,
@@ -93,7 +93,7 @@ def held_periods(omega2: FloatArray, mass: FloatArray) -> tuple[float, ...]:
 def sanity_warnings(
     system: System, axial_forces: FloatArray, periods: tuple[float, ...]
 ) -> tuple[str, ...]:
-    """Return what is strange about a frame in equilibrium, a sentence each.
+    """Return the unusual values of a frame in equilibrium, a sentence each.
 
     Shapes: axial_forces (n_bearings,).
     """
@@ -211,7 +211,7 @@ def _of_periods(periods: tuple[float, ...], isolated: float) -> list[str]:
 
 
 def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
-    """Return what is strange about a motion under a frame, a sentence each."""
+    """Return the unusual values of a motion under a frame, a sentence each."""
     peak = float(np.hypot(*motion.components[:, :2].T).max())
     if peak > STRONG_GROUND:
         return (
@@ -247,7 +247,7 @@ def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
 
 
 def check_analysis(model: object, motion: object) -> None:
-    """Refuse what cannot be analysed, and warn of what was probably not meant."""
+    """Refuse a model or motion that cannot be analysed, and warn of probable mistakes."""
     if isinstance(model, GroundMotion) and isinstance(motion, FrameData):
         msg = "the arguments are swapped: time_history(model, motion), the frame comes first"
         raise TypeError(msg)

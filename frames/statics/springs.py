@@ -1,4 +1,4 @@
-"""Bearings as linear springs between their nodes, and what is known of a model before any run."""
+"""Bearings as linear springs between their nodes, and checks of a model before any run."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def guessed_springs(system: System, with_points: Collection[str] = ()) -> SparseMatrix:
-    """Model the bearings as linear springs: axial stiffness, a hundredth of it sideways.
+    """Return the bearings as linear springs: axial stiffness, a hundredth of it sideways.
 
     Shapes: result (n_free, n_free).
     """
@@ -78,7 +78,7 @@ def spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
 
 
 def held_springs(system: System) -> SparseMatrix:
-    """Hold the bearings: a thousand times their axial stiffness along x, y and z."""
+    """Return springs that hold the bearings: 1,000 times their axial stiffness in x, y, z."""
     values = np.zeros((len(system.bearings), 6))
     axial = [bearing_axial_stiffness(placed.bearing) for placed in system.bearings]
     values[:, :3] = 1e3 * np.array(axial)[:, None]
@@ -86,7 +86,7 @@ def held_springs(system: System) -> SparseMatrix:
 
 
 def exact_features(frame: FrameData, motion: GroundMotion) -> Features:
-    """Return what a test case needs as far as that is certain before the run."""
+    """Return the features that a run certainly needs, before it starts."""
     system = assemble(frame)
     bearings = [placed.bearing for placed in system.bearings]
     lacking = []
@@ -102,7 +102,7 @@ def exact_features(frame: FrameData, motion: GroundMotion) -> Features:
 
 
 def is_plane(system: System) -> bool:
-    """Return whether nothing couples the x-z plane of a frame with what moves out of it."""
+    """Return True if nothing couples the x-z plane of a frame with motion out of it."""
     outside = np.array([label.rsplit(" ", 1)[1] in OUT_OF_PLANE for label in system.dof_labels])
     across = np.array([dof in OUT_OF_PLANE for dof in DOFS] * len(system.node_names))
     parts = (

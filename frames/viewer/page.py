@@ -1,4 +1,4 @@
-"""The page: its parts from the folder of assets, put together as one file with what it shows."""
+"""The page: its parts from the folder of assets and its data, as one file."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def write_view(
     checks: Iterable[ShownCheck] = (),
     size: float = 3.0,
 ) -> str:
-    """Write a page on which a model on bearings is looked at in motion.
+    """Write a page that shows a model on bearings in motion.
 
     The page is one file that needs no network: the model in space, one bearing in vertical
     section, its loop and orbit, the floors' response, at a common time.
@@ -58,15 +58,16 @@ def write_view(
     path : str or path
         The file, "view.html"; one that is there is replaced.
     checks : iterable of Check
-        Checks that the page shows beside: `frames.design.Checks`, for one.
+        Checks beside the picture, for example `frames.design.Checks`.
     size : float
-        What the histories may take [MB], > 0. Where all recorded steps would take more, those are
-        kept between which straight lines follow the curves best; the page says how well.
+        Largest size of the histories [MB], > 0. If all recorded steps would exceed it, steps are
+        chosen so that linear interpolation between them reproduces the curves best; the page gives
+        the error.
 
     Returns
     -------
     str
-        What was written: file, size and number of steps, in words.
+        Summary of the written file: name, size and number of steps, in words.
 
     Raises
     ------

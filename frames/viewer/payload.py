@@ -1,4 +1,4 @@
-"""From a result and its model to what the page holds: thinned, packed, told how."""
+"""From a result and its model to the data of the page: thinned, packed, described."""
 
 from __future__ import annotations
 
@@ -53,15 +53,15 @@ class ShownCheck(Protocol):
 
     @property
     def title(self) -> str:
-        """What is checked."""
+        """Checked quantity."""
 
     @property
     def concerns(self) -> str:
-        """Of which part, bound and level."""
+        """Its part, bound and level."""
 
     @property
     def relation(self) -> str:
-        """What the demand must be to the limit: "<=" or ">="."""
+        """Relation of demand and limit: "<=" or ">="."""
 
     @property
     def said(self) -> tuple[str, str, str]:
@@ -77,11 +77,11 @@ class ShownCheck(Protocol):
 
     @property
     def note(self) -> str:
-        """What else there is to know."""
+        """Further remark."""
 
 
 class Payload(NamedTuple):
-    """What the page holds, and how many steps of how many."""
+    """Data of the page, and the numbers of its steps and of all steps."""
 
     content: dict[str, object]  # as JSON takes it
     kept: int  # numbers of steps
@@ -91,10 +91,10 @@ class Payload(NamedTuple):
 class Response(NamedTuple):
     """Histories of one quantity."""
 
-    name: str  # what it is, and the unit that it is shown in
+    name: str  # its title, and the unit shown
     unit: str
     factor: float  # from SI to that unit
-    places: tuple[str, ...]  # levels, storeys, or what else has one
+    places: tuple[str, ...]  # levels, storeys, or other places
     values: FloatArray  # (n_steps, n_places, 2) along x and y, SI
 
 
@@ -109,7 +109,7 @@ class Shapes(NamedTuple):
 def payload_of(
     data: xr.Dataset, model: Frame, checks: Iterable[ShownCheck], size: float
 ) -> Payload:
-    """Return what the page of a time history holds."""
+    """Return the data of the page of a time history."""
     data = in_window(data, None, None)
     system = assemble(model)
     require_own(model, system, data)
@@ -184,7 +184,7 @@ def _said_of(
     steps: IntArray,
     shape_error: float,
 ) -> dict[str, object]:
-    # How much the page leaves out: numbers of steps, and errors over the largest value [-].
+    # Omissions of the page: numbers of steps, and errors over the largest value [-].
     groups = {
         "displacement": moved.displacement,
         "force": moved.force,
@@ -292,7 +292,7 @@ def _error(table: FloatArray, basis: FloatArray) -> float:
 
 
 CONTACT = 4.0
-"""How many times as much an error counts where a rim is touched or a bearing has lifted."""
+"""Factor on an error during rim contact or after a bearing has lifted."""
 
 WINDOW = 0.02
 """Time before and after it in which that holds [s]."""
@@ -337,7 +337,7 @@ def _extremes(curves: FloatArray) -> IntArray:
 
 
 def _widened(time: FloatArray, where: BoolArray) -> BoolArray:
-    # Also what is less than the window away from a step that is marked.
+    # Also steps less than the window away from a marked step.
     at = time[where]
     if not len(at):
         return where

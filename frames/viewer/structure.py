@@ -1,4 +1,4 @@
-"""What a page shows of the model: nodes, lines, floors, bearings; how arrays are packed."""
+"""Data of the model on a page: nodes, lines, floors, bearings; packing of arrays."""
 
 from __future__ import annotations
 
@@ -60,8 +60,8 @@ def structure_of(model: FrameData, system: System) -> dict[str, object]:
 
 
 def _bending(system: System) -> tuple[FloatArray, IntArray]:
-    # Unlike members' lines for a unit of each of the twelve displacements, (k, stations, 3, 12),
-    # and which of these each member has.
+    # Different lines of members for a unit of each of the twelve displacements, (k, stations, 3,
+    # 12), and each member's line.
     table, count = system.members, len(system.members.names)
     alone = replace(
         table, nodes=np.arange(2 * count).reshape(count, 2), offsets=np.zeros((count, 2, 3))
@@ -78,7 +78,7 @@ def _bending(system: System) -> tuple[FloatArray, IntArray]:
 
 
 def _around(system: System, nodes: list[int]) -> list[int]:
-    # The nodes around a level, in order; none where they do not span an area.
+    # The nodes around a level, in order; none if they do not span an area.
     try:
         hull = ConvexHull(system.coordinates[nodes][:, :2])
     except (QhullError, ValueError):
@@ -87,7 +87,7 @@ def _around(system: System, nodes: list[int]) -> list[int]:
 
 
 Packed: TypeAlias = dict[str, object]
-"""An array as it stands in the page: "type", "shape", "data", and "scale" where it is scaled."""
+"""An array in the page: "type", "shape", "data", and "scale" if it is scaled."""
 
 STEPS = 32767
 """Steps between zero and the largest value of a history."""
@@ -124,7 +124,7 @@ def _text(array: npt.NDArray[np.generic]) -> str:
 
 
 RIM_BOTTOM, RIM_TOP, SLIPS, LIFTED = 1, 2, 4, 8
-"""Bits of what goes on in a bearing at a step."""
+"""Bits of the state of a bearing at a step."""
 
 SLIP_SPEED = 5e-3
 """Speed from which on an interface is shown as sliding [m/s]: below, friction is elastic."""
@@ -152,11 +152,11 @@ class Movements(NamedTuple):
     plate_axis: FloatArray  # (..., 2)
     slip: FloatArray  # (..., 3) interface slip [m]
     gap: FloatArray  # gap of uplift [m]
-    # (..., 3) where the top plate of a bearing that has lifted is, against its place on the
+    # (..., 3) place of the top plate of a bearing that has lifted, relative to its place on the
     # slider [m]
     opening: FloatArray
     rim_force: FloatArray  # (..., 2) of the bottom and the top rim [N]
-    # sum of `RIM_BOTTOM`, `RIM_TOP`, `SLIPS` and `LIFTED` where that is so
+    # sum of `RIM_BOTTOM`, `RIM_TOP`, `SLIPS` and `LIFTED`
     contacts: npt.NDArray[np.uint8]
 
 
@@ -191,7 +191,7 @@ def movements(data: xr.Dataset) -> Movements:
 
 
 def devices(data: xr.Dataset) -> list[dict[str, object]]:
-    """Return the geometry of all bearings as drawn, lengths in m, None for what is infinite."""
+    """Return the drawn geometry of all bearings, lengths in m, None for infinite ones."""
     found = []
     for name in data["bearing"].to_numpy():
         device = device_of(data, str(name))
