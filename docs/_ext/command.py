@@ -27,6 +27,7 @@ def reference() -> str:
     call = [sys.executable, "-m", "typer", "frames.command.app", "utils", "docs", "--name", "lir"]
     told = subprocess.run(call, capture_output=True, text=True, check=True)  # noqa: S603
     text = unescape(told.stdout).partition("**Usage**")[2]
+    text = re.sub(r"^Example: (.*)$", r"Example: `\1`", text, flags=re.M)
     for name, one in get_group(command).commands.items():  # typer cuts what it lists
         said = (one.help or "").partition("\n")[0]
         text = re.sub(rf"^\* `{name}`: .*$", f"* [`{name}`](#lir-{name}): {said}", text, flags=re.M)

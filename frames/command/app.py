@@ -34,14 +34,15 @@ app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    help="Buildings on LIR-DCFP bearings: a project's file, its analyses and design checks. "
+    help="Analyse and design buildings on LIR-DCFP bearings, from a project file to its report. "
     "Exit codes: 0 no check fails, 1 a check fails, 2 the input cannot be used, 3 an analysis "
     "fails, 4 a file cannot be read or written, 130 interrupted.",
+    epilog="Example: lir new office && cd office && lir run",
 )
 HERE, FILE, RESULTS = Path(), Path("project.toml"), Path("results")
 BENCH = Path("bench.csv")
 
-File = Annotated[Path, typer.Argument(help="The project's file.")]
+File = Annotated[Path, typer.Argument(help="Path of the project file.")]
 
 
 def _version(asked: bool) -> None:
@@ -55,36 +56,36 @@ def _version(asked: bool) -> None:
 @app.callback()
 def lir(
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Tell the version.")
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
     ] = False,
     scripts_from_anywhere: Annotated[
         bool,
         typer.Option(
             "--scripts-from-anywhere",
-            help="Run Python files that a project names outside of its folder, too.",
+            help="Run Python files outside of the project folder, too.",
         ),
     ] = False,
 ) -> None:
-    """Take options of the command itself."""
+    """Set the options of all commands."""
     trust(scripts_from_anywhere)
 
 
-@app.command()
+@app.command(epilog="Example: lir new tower --code 'EN 1998'")
 def new(
-    folder: Annotated[Path, typer.Argument(help="Where to write it.")] = HERE,
+    folder: Annotated[Path, typer.Argument(help="Folder for the project.")] = HERE,
     code: Annotated[
-        str | None, typer.Option(help="ASCE 7-22 (if left out), EN 1998 or NCh2745.")
+        str | None, typer.Option(help="Design code: ASCE 7-22 (default), EN 1998 or NCh2745.")
     ] = None,
     example: Annotated[
         str | None,
-        typer.Option(help="A whole building instead: hospital, imported, near-fault, office."),
+        typer.Option(help="Copy a whole building: hospital, imported, near-fault or office."),
     ] = None,
     model: Annotated[
         Path | None,
-        typer.Option("--from", help="A model of SAP2000 or ETABS as its structure, as text."),
+        typer.Option("--from", help="Use a text model of SAP2000 or ETABS as the structure."),
     ] = None,
 ) -> None:
-    """Write an example project: a commented file, and motions to try it with."""
+    """Write an example project: a commented file and artificial ground motions."""
     from frames.design._errors import ProjectError
     from frames.design.project.example import write_example
 
@@ -99,9 +100,9 @@ def new(
     say(f"{written[0]} and {len(written) - 1} other files; next: lir {then} {written[0]}")
 
 
-@app.command()
+@app.command(epilog="Example: lir check tower.toml")
 def check(file: File = FILE) -> None:
-    """Check a project's file, its model and motions; analyse it equivalent-linearly."""
+    """Check a project file, its model and motions, and run the equivalent-linear analysis."""
     from frames.design.histories.motions import motion_checks
     from frames.design.project.design_run import from_memory, provisions_of
     from frames.design.project.level_runs import said_of_runs
@@ -131,16 +132,16 @@ def check(file: File = FILE) -> None:
             raise typer.Exit(FAILED_CHECKS)
 
 
-app.command(name="design")(propose)
+app.command(name="design", epilog="Example: lir design --objective cost --write")(propose)
 
 
-@app.command()
+@app.command(epilog="Example: lir run tower.toml --results tower-1")
 def run(
     file: File = FILE,
     results: Annotated[Path, typer.Option(help="Folder for the results.")] = RESULTS,
     figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
 ) -> None:
-    """Run a project at each level and bound of friction, check it, and write the results."""
+    """Run the time histories of a project, check the design, and write results and report."""
     from frames.design.project.design_run import run_project
     from frames.design.project.level_runs import said_of_runs
     from frames.design.report.files import UNFINISHED, write_run  # with figures
@@ -161,19 +162,19 @@ def run(
         _told_of(found, written, results)
 
 
-@app.command()
+@app.command(epilog="Example: lir report --language es --pdf")
 def report(
     file: File = FILE,
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = RESULTS,
     figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
     language: Annotated[
-        str, typer.Option(help="Of the report, in place of the file's: en or es.")
+        str, typer.Option(help="Language of the report: en or es (default: that of the file).")
     ] = "",
     pdf: Annotated[
-        bool, typer.Option("--pdf", help="Print it as well: report.pdf, by Chromium.")
+        bool, typer.Option("--pdf", help="Print report.pdf, too (needs Chromium).")
     ] = False,
 ) -> None:
-    """Judge a run again and write its report anew, with the limits that the file has now."""
+    """Check a run again with the present limits of its file, and rewrite the report."""
     from frames.design.project.design_run import evaluate_run
     from frames.design.project.preliminary import inputs_of, preliminary
     from frames.design.report.files import UNFINISHED, print_report, read_histories, write_judgement
@@ -200,7 +201,7 @@ def report(
         _told_of(found, written, results)
 
 
-app.command()(view)
+app.command(epilog="Example: lir view --size 10")(view)
 
 
 def _said_to_be_kept(unfinished: Path) -> None:
@@ -237,18 +238,18 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
         raise typer.Exit(FAILED_CHECKS)
 
 
-app.command()(compare)
-app.command()(export)
+app.command(epilog="Example: lir compare tower.toml")(compare)
+app.command(epilog="Example: lir export --to sap2000")(export)
 
 
-@app.command()
+@app.command(epilog="Example: lir bench --error 0.005 --contact")
 def bench(
     file: File = FILE,
-    error: Annotated[float, typer.Option(help="Allowed in the peaks [-].")] = 0.01,
-    contact: Annotated[bool, typer.Option(help="Also at the level contact.")] = False,
-    table: Annotated[Path, typer.Option(help="Where the table is kept.")] = BENCH,
+    error: Annotated[float, typer.Option(help="Allowed error of the peaks [-].")] = 0.01,
+    contact: Annotated[bool, typer.Option(help="Include the level contact.")] = False,
+    table: Annotated[Path, typer.Option(help="File for the table [CSV].")] = BENCH,
 ) -> None:
-    """Run the first motion with several steps: how fast this machine is, and with which error."""
+    """Measure speed and error of several time steps with the first motion."""
     import pandas as pd
 
     from frames.design.project.preliminary import preliminary
@@ -302,14 +303,14 @@ def _line_of(way: Way) -> str:
     )
 
 
-app.command()(campaign)
-app.command()(campaign_status)
-app.command()(campaign_archive)
+app.command(epilog="Example: lir campaign fragility.toml --workers 8")(campaign)
+app.command(epilog="Example: lir campaign-status fragility-results")(campaign_status)
+app.command(epilog="Example: lir campaign-archive fragility-results data.zip")(campaign_archive)
 
 
-@app.command(name="schema")
+@app.command(name="schema", epilog="Example: lir schema > project.schema.json")
 def print_schema() -> None:
-    """Print the JSON schema of a project's file, for editors."""
+    """Print the JSON schema of the project file, for editors."""
     from frames.design.project.reading import schema
 
     sys.stdout.write(schema() + "\n")

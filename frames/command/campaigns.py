@@ -18,17 +18,22 @@ if TYPE_CHECKING:
 
 
 def campaign(
-    file: Annotated[Path, typer.Argument(help="The campaign's file.")],
-    store: Annotated[Path | None, typer.Option(help="Folder for the results.")] = None,
-    workers: Annotated[int | None, typer.Option(min=1, help="Runs at a time.")] = None,
+    file: Annotated[Path, typer.Argument(help="Path of the campaign file.")],
+    store: Annotated[
+        Path | None, typer.Option(help="Folder for the results (default: beside the file).")
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Number of parallel runs (default: all processors).")
+    ] = None,
     figures: Annotated[bool, typer.Option(help="Draw the figures of the page.")] = True,
     reuse: Annotated[
-        list[Path] | None, typer.Option(help="Results of a campaign whose runs are taken over.")
+        list[Path] | None,
+        typer.Option(help="Folder of an earlier campaign whose equal runs are copied."),
     ] = None,
 ) -> None:
-    """Run a campaign, or go on with it: models, motions, scales and parameters of a file.
+    """Run a campaign of many time histories from its file, or resume it.
 
-    Among the results a page, campaign.html, with its tables: runs, failures, responses, fragility.
+    Writes campaign.html, a page on runs, failures, responses and fragility, and its tables.
     """
     with exit_codes():
         _require_packages()
@@ -92,9 +97,9 @@ def _write(found: Campaign, file: CampaignFile, *, figures: bool) -> None:
 
 
 def campaign_status(
-    store: Annotated[Path, typer.Argument(help="Folder of the results.")],
+    store: Annotated[Path, typer.Argument(help="Folder with the results.")],
 ) -> None:
-    """Tell how far a campaign is, also while it runs."""
+    """Print the progress of a campaign, also while it runs."""
     with exit_codes():
         _require_packages()
         from frames.risk.campaign.store import open_campaign
@@ -106,10 +111,10 @@ def campaign_status(
 
 
 def campaign_archive(
-    store: Annotated[Path, typer.Argument(help="Folder of the results.")],
-    archive: Annotated[Path, typer.Argument(help="The archive, a .zip.")],
+    store: Annotated[Path, typer.Argument(help="Folder with the results.")],
+    archive: Annotated[Path, typer.Argument(help="Path of the archive (.zip).")],
 ) -> None:
-    """Write a campaign's results as data for others: zarr, CSV and a README in one archive."""
+    """Write the results of a campaign as a data archive: zarr, CSV and a README."""
     with exit_codes():
         _require_packages()
         from frames.risk.campaign.archive import archive_campaign

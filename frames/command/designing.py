@@ -47,43 +47,36 @@ _SHOWN = [
 
 
 def propose(
-    file: Annotated[Path, typer.Argument(help="The project's file.")] = Path("project.toml"),
-    sizes: Annotated[int, typer.Option(help="Number of unlike sliders.")] = 1,
+    file: Annotated[Path, typer.Argument(help="Path of the project file.")] = Path("project.toml"),
+    sizes: Annotated[int, typer.Option(help="Number of slider sizes.")] = 1,
     objective: Annotated[
         str,
         typer.Option(
             "--objective",
             "--least",
-            help=(
-                "Quantity to minimise: base-shear, displacement, plan (diameter of the "
-                "plates), cost-like (volume of all bearings) or cost (by the prices of "
-                "[design])."
-            ),
+            help="Quantity to minimise: base-shear, displacement, plan (diameter of the plates), "
+            "cost-like (volume of all bearings) or cost (by the prices in the file).",
         ),
     ] = "base-shear",
-    top: Annotated[
-        int, typer.Option(min=1, help="How many of the best are listed, and tried.")
-    ] = 3,
+    top: Annotated[int, typer.Option(min=1, help="Number of candidates to list and to try.")] = 3,
     front: Annotated[
         bool,
-        typer.Option(
-            "--front", help="Try all Pareto-optimal candidates, not only until one passes."
-        ),
+        typer.Option("--front", help="Try all Pareto-optimal candidates, also after one passes."),
     ] = False,
     verify: Annotated[
-        bool, typer.Option("--verify", help="Run the time histories of the project as well.")
+        bool, typer.Option("--verify", help="Run all time histories of the project, too.")
     ] = False,
     write: Annotated[
-        bool, typer.Option("--write", help="Put the proposal into the project's file.")
+        bool, typer.Option("--write", help="Write the proposal to the project file.")
     ] = False,
-    results: Annotated[Path, typer.Option(help="Folder for tables and picture.")] = Path("design"),
+    results: Annotated[Path, typer.Option(help="Folder for tables and figures.")] = Path("design"),
 ) -> None:
-    """Propose LIR-DCFP bearings, beside plain ones, and print them as sections of the file.
+    """Propose LIR-DCFP bearings beside plain ones, as sections of the project file.
 
-    All candidates, with why each fell out, are in candidates.csv and candidates.png. The best are
-    sized on one mass under the project's motions (one_mass.csv), then on the building itself until
-    its checks pass (front.csv, front.png). With --verify they are sized by the time histories and
-    checks that `lir run` makes as well: verified.csv.
+    All candidates and their unmet requirements are in candidates.csv and candidates.png. The best
+    are sized on one mass under the project's motions (one_mass.csv), then on the building until its
+    checks pass (front.csv, front.png), with --verify also by all analyses of `lir run`
+    (verified.csv).
     """
     from frames.design.project.verification import sections_of
     from frames.results.storage import make_folder

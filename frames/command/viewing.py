@@ -11,11 +11,11 @@ from frames.command.console import exit_codes, out, project_in, say
 
 
 def view(
-    file: Annotated[Path, typer.Argument(help="The project's file.")] = Path("project.toml"),
+    file: Annotated[Path, typer.Argument(help="Path of the project file.")] = Path("project.toml"),
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = Path("results"),
     size: Annotated[float, typer.Option(help="Largest size of the histories [MB].")] = 3.0,
 ) -> None:
-    """Write view.html: model and bearings of the governing run in motion, on one page."""
+    """Write view.html, a page that shows model and bearings in motion in the governing run."""
     from frames.design._errors import ProjectError
     from frames.design.project.level_runs import most_displaced, named_case
     from frames.design.project.preliminary import inputs_of, preliminary
@@ -38,11 +38,11 @@ def view(
 
 
 def compare(
-    file: Annotated[Path, typer.Argument(help="The project's file.")] = Path("project.toml"),
+    file: Annotated[Path, typer.Argument(help="Path of the project file.")] = Path("project.toml"),
     results: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("results"),
     figures: Annotated[bool, typer.Option(help="Draw the figures of the page.")] = True,
 ) -> None:
-    """Compare the LIR-DCFP with the same bearing and a rigid slider, the plain DCFP.
+    """Compare the LIR-DCFP with the plain DCFP: the same bearing with a rigid slider.
 
     Writes compare.html, compare.csv and compare-motions.csv.
     """
@@ -71,14 +71,15 @@ def compare(
 
 
 def export(
-    file: Annotated[Path, typer.Argument(help="The project's file.")] = Path("project.toml"),
-    to: Annotated[str, typer.Option(help="etabs or sap2000.")] = "etabs",
+    file: Annotated[Path, typer.Argument(help="Path of the project file.")] = Path("project.toml"),
+    to: Annotated[str, typer.Option(help="Program: etabs or sap2000.")] = "etabs",
     results: Annotated[Path, typer.Option(help="Folder for the files.")] = Path("export"),
 ) -> None:
-    """Write the project for another program, and what its response spectrum analysis should give.
+    """Write the project for another program, and the expected response spectrum results.
 
-    At each bound of friction a model whose links have the effective stiffness and damping of the
-    equivalent-linear analysis; links.csv, spectrum.csv with that damping, expected.csv.
+    Writes a model at each friction bound, with the effective stiffness and damping of the
+    equivalent-linear analysis in its links, and links.csv, spectrum.csv (with that damping) and
+    expected.csv.
     """
     from typing import get_args
 
