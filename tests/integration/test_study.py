@@ -13,13 +13,12 @@ pytest.importorskip("filelock")
 pytest.importorskip("pyFragility")
 
 from frames.risk.campaign.comparison import dish_diameter
+from frames.risk.campaign.ductility import yield_rotations
 from frames.risk.campaign.file import campaign_file, models_in
 from tests.unit.test_campaign_compare import COMPARED, FILE, SEARCH, put_pulses
-from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
-from validation.study import buildings, device, runner
+from validation.study import device, recompute, runner
 from validation.study.__main__ import PARTS, main
-from validation.study.device_runs import REFERENCE, Device, best_devices, frame_of, plan_of
 
 FILED = [part for part in PARTS if runner.files_of(part)]
 
@@ -54,13 +53,13 @@ def test_a_page_is_that_of_its_numbers(part):
     assert (FOLDER / f"{name}.md").read_text(encoding="utf-8") == runner.page(part, given)
 
 
-TEMPLATE = """# Rims
+TEMPLATE = """# A part
 
 {{ written }} {{ only.motions }} motions; collapse margins at {{ only.considered|f(".2f") }} m/s2:
 
 {% for row in rows_of(only.tables.margins) %}{{ row.device }}: {{ interval(row, "margin") }}
 {% endfor %}
-{{ crossed(where(only.tables.ratios, limit_state="collapse"), "rims", "over", "ratio") }}
+{{ judged(where(only.tables.ratios, limit_state="collapse")) }}
 
 {{ double }} is twice {{ own.runs }}. ![]({{ figure_of("fragility-1") }})
 
@@ -68,44 +67,54 @@ TEMPLATE = """# Rims
 """
 OWN = """
 def numbers(every):
-    return {"runs": len(every["rims"].data["run"])}
+    return {"runs": len(every["after"].data["run"])}
 def double(own):
     return 2 * own["runs"]
 """
 
 
-def test_a_part_is_a_file_and_a_template(tmp_path, monkeypatch):
+def test_a_part_is_a_file_and_a_template(tmp_path, monkeypatch, capsys):
     """Run, told by its tables, gone on with, and written again from its numbers."""
     monkeypatch.setattr(runner, "HERE", put_pulses(tmp_path))
-    (tmp_path / "rims.toml").write_text(FILE)
+    (tmp_path / "after.toml").write_text(FILE)
     searched = FILE.replace(COMPARED, f'{SEARCH}[compare]\ncollapse_drift = "0.3 %"\n')
-    (tmp_path / "rims-search.toml").write_text(searched)
-    (tmp_path / "rims.md.j2").write_text(TEMPLATE.replace("double }}", "double(own) }}"))
+    (tmp_path / "after-search.toml").write_text(searched)
+    (tmp_path / "after.md.j2").write_text(TEMPLATE.replace("double }}", "double(own) }}"))
     module = types.ModuleType("own")
     exec(OWN, vars(module))  # noqa: S102  (a module of the test)
     monkeypatch.setattr(runner, "own_module", lambda part: module)
     to = tmp_path / "docs"
-    given = ["rims", "--store", str(tmp_path / "runs"), "--to", str(to)]
+    given = ["after", "--store", str(tmp_path / "runs"), "--to", str(to)]
     main(given)
-    text = (to / "study_rims.md").read_text()
-    told = runner.told_of(json.loads((to / "study_rims.json").read_text()))["rims"]
+    text = (to / "study_after.md").read_text()
+    told = runner.told_of(json.loads((to / "study_after.json").read_text()))["after"]
     runs = 5 * 4 * 5  # devices, records, intensities
     assert f"{2 * runs} is twice {runs}." in text
     assert f"4 motions; collapse margins at {told['considered']:.2f} m/s2" in text
     ratios = told["tables"]["ratios"]
     for _, row in ratios[ratios["limit state"] == "collapse"].dropna().iterrows():
         value, low, high = row[["ratio [-]", "low [-]", "high [-]"]]
-        assert re.search(rf"\| {row['rims']} \|.* {value:.2f} \({low:.2f} to {high:.2f}\) \|", text)
-    assert {path.name for path in (to / "figures").iterdir()} == {"study_rims-fragility-1.png"}
-    csv = pd.read_csv(to / "tables/study_rims-rims-ratios.csv")
+        cell = f"{row['verdict']}, {value:.2f} ({low:.2f} to {high:.2f})"
+        assert f"| {cell}; {row['less']} to {row['more']} |" in text
+    assert {path.name for path in (to / "figures").iterdir()} == {"study_after-fragility-1.png"}
+    csv = pd.read_csv(to / "tables/study_after-after-ratios.csv")
     assert csv["ratio [-]"].to_numpy() == pytest.approx(ratios["ratio [-]"], rel=1e-4, nan_ok=True)
     main(given)
-    again = (to / "study_rims.md").read_text()
+    text = (to / "study_after.md").read_text()
     points = 5
-    assert f"{points} points. {runs + 20 * points} histories, 0 of them in the last call" in again
-    (to / "study_rims.md").unlink()
-    main(["rims", "--again", "--to", str(to)])
-    assert (to / "study_rims.md").read_text() == again
+    assert f"{points} points. {runs + 20 * points} histories, 0 of them in the last call" in text
+    main([*given[:3], "--archive", str(tmp_path)])
+    monkeypatch.setattr(
+        recompute, "LIMITS", {"study_after": ("collapse", "storey drift, mean", 0.003)}
+    )
+    recompute.main(str(tmp_path), str(to))
+    found = re.findall(r"page (\S+), recomputed (\S+), difference", capsys.readouterr().out)
+    assert len(found) == 8
+    for page, again in found:
+        assert float(again) == pytest.approx(float(page), rel=1e-4)
+    (to / "study_after.md").unlink()
+    main(["after", "--again", "--to", str(to)])
+    assert (to / "study_after.md").read_text() == text
 
 
 # The part on devices: its files, prices and pairs
@@ -126,32 +135,6 @@ def test_the_level_pendulum_has_devices_of_the_level_contact():
     assert contact.motions == pendulum.motions
     for terms in device.TERMS:
         assert {name for pair in device.pairs_of(terms) for name in pair} <= {*contact.devices}
-
-
-def test_the_devices_are_those_that_other_parts_of_the_study_have(equal):
-    """By the study's own functions: the same bearings under every column."""
-    for plan in (0.569, 0.689):
-        more = plan - plan_of(REFERENCE)
-        for rims, strength in (("rims of 1 W", 1.0), ("unbreakable rims", None)):
-            own = frame_of(Device(plan_of(REFERENCE) + more, True, strength=strength))
-            assert_same(equal[f"DCFP {1e3 * plan:.0f} mm, {rims}"], own)
-    lir = best_devices()[LIR]._replace(plan=0.689)
-    assert_same(equal[device.LIR], frame_of(lir))
-
-
-def assert_same(made, own):
-    """Compare the bearings of two buildings."""
-    assert list(made.bearings) == list(own.bearings)
-    for name, link in own.bearings.items():
-        one, other = link.bearing, made.bearings[name].bearing
-        assert one.is_dcfp is other.is_dcfp
-        assert one.rim_yield_force == pytest.approx(other.rim_yield_force, rel=1e-5)
-        for key in ("radii", "slider_radius", "slider_height", "lateral_capacity"):
-            assert getattr(other, key) == pytest.approx(getattr(one, key), rel=1e-4)
-        mine, theirs = one.resolved(), other.resolved()
-        unbroken = math.isinf(one.rim_yield_force)
-        for key in {*mine} - ({"rim_overrun"} if unbroken else set()):
-            assert theirs[key] == pytest.approx(mine[key], rel=1e-4), key
 
 
 def test_lir_dcfps_pass_the_check_at_the_rims_but_the_one_that_is_named_so(equal):
@@ -249,36 +232,33 @@ def pressed(frame, plan):
     return device.Device(kind="DCFP", plan=plan, rims=1.0).on(frame)
 
 
-@pytest.mark.parametrize("file", ["rims-smaller", "rims-larger", "buildings"])
-def test_devices_that_are_compared_have_one_plan_and_load(file):
-    """Of a structure the largest dish, and under each column the load, are the same."""
-    given = campaign_file(runner.HERE / f"{file}.toml")
-    models, plans = models_in(given), {}
-    for name, frame in models.items():
-        structure = next((n for n in given.structures if name.startswith(f"{n}, ")), "")
-        bearings = [link.bearing for link in frame.bearings.values()]
-        loads = [round(each.design_load, 3) for each in bearings]
-        dish = max(map(dish_diameter, bearings))
-        plans.setdefault(structure, []).append((round(1e3 * dish, 2), loads))
-        pressures = {each.design_load / (math.pi * each.slider_radius**2) for each in bearings}
-        if name.split(", ", 2 if structure else 0)[-1].startswith("DCFP"):
-            assert max(pressures) == pytest.approx(min(pressures), rel=1e-6)
-    assert all(dish == own[0] for own in plans.values() for dish in own)
-    for structure, own in plans.items():
-        frame = models[f"{structure}, LIR-DCFP"] if structure else next(iter(models.values()))
-        weight = frame.gravity * sum(float(mass[0]) for mass in frame.masses.values())
-        steel = frame.gravity * sum(
-            each.section.density * each.section.area * _length(frame, each)
-            for each in frame.members.values()
+def test_buildings_have_devices_of_one_plan_and_load():
+    """Of a building the largest dish, and under each column the load, are the same."""
+    given = campaign_file(runner.HERE / "buildings.toml")
+    models = models_in(given)
+    for structure in given.structures:
+        frames = [frame for name, frame in models.items() if name.startswith(f"{structure}, ")]
+        assert len(frames) == len(given.devices)
+        every = [device.bearings_of(frame) for frame in frames]
+        dishes = [max(map(dish_diameter, bearings)) for bearings in every]
+        assert dishes == pytest.approx([dishes[0]] * len(dishes), rel=1e-6)
+        loads = [[each.design_load for each in bearings] for bearings in every]
+        for own in loads:
+            assert own == pytest.approx(loads[0])
+        steel = sum(
+            each.section.density * each.section.area * _length(frames[0], each)
+            for each in frames[0].members.values()
         )
-        assert sum(own[0][1]) == pytest.approx(weight + steel, rel=1e-6)
-    if file == "buildings":  # I 400 x 180 and box 300 x 16 mm of 345 MPa: 36 beam ends, 9 feet
-        beam = 345e6 * (0.18 * 0.0135 * 0.3865 + 0.25 * 0.0086 * 0.373**2)
-        column = 345e6 * (0.3**3 - 0.268**3) / 4.0
-        total = (36.0 * beam + 9.0 * column) / (0.5 * 4 * 3.5)
-        low = models["3 storeys, frames, LIR-DCFP"]
-        loads = plans["3 storeys, frames"][0][1]
-        assert buildings.strength(low) == pytest.approx(total / sum(loads), rel=1e-6)
+        mass = sum(float(each[0]) for each in frames[0].masses.values()) + steel
+        assert sum(loads[0]) == pytest.approx(frames[0].gravity * mass, rel=1e-6)
+
+
+def test_yield_rotations_are_recomputed():
+    """Of all hinges of the building that most parts have."""
+    frame = next(iter(models_in(runner.HERE / "records.toml").values()))
+    limits = recompute.at_yield()
+    for name, rotation in yield_rotations(frame).items():
+        assert limits[name.split("-")[0]] == pytest.approx(rotation, rel=1e-6)
 
 
 def _length(frame, member):

@@ -1,62 +1,19 @@
-"""The parts on loss and on uncertain properties, by hand and by other routes."""
+"""The parts on loss and on uncertain properties by hand; devices of all parts of one plan."""
 
-import math
 import warnings
 
 import numpy as np
-import pandas as pd
 import pytest
-from scipy import stats
 
 from frames.design import Spectrum
-from frames.risk import HazardCurve, Intensity, IntensityRuns, LimitState
+from frames.risk import HazardCurve
 from frames.risk.campaign.comparison import collapse_limit, dish_diameter
 from frames.risk.campaign.file import campaign_file, comparison_in, loss_in, models_in
 from frames.risk.campaign.loss import annual_losses
 from lir_element import DesignWarning
 from lir_element.units import STANDARD_GRAVITY
-from validation.study.capacities import bounds_of, fitted
 from validation.study.runner import HERE, files_of
-from validation.study.uncertainty import effects
-
-# Capacities
-
-
-def test_a_fit_to_narrow_intervals_is_least_squares():
-    rng = np.random.default_rng(3)
-    x = rng.normal(-0.8, 0.3, 40)
-    y = 0.9 + 0.6 * x + rng.normal(0.0, 0.25, 40)
-    bounds = np.exp(np.column_stack([y - 1e-4, y + 1e-4]))
-    line, expected = fitted(bounds, x), stats.linregress(x, y)
-    assert line.slope == pytest.approx(expected.slope, abs=1e-3)
-    assert line.median(0.0) == pytest.approx(math.exp(expected.intercept), rel=2e-3)
-    rest = y - expected.intercept - expected.slope * x
-    assert line.dispersion == pytest.approx(rest.std(), rel=1e-2)
-    assert fitted(bounds).dispersion == pytest.approx(y.std(), rel=1e-2)
-    assert fitted(bounds).median() == pytest.approx(math.exp(y.mean()), rel=1e-3)
-
-
-def test_a_fit_to_open_intervals_finds_the_truth():
-    y = np.random.default_rng(5).normal(0.7, 0.4, 4000)
-    levels = np.array([0.0, 1.2, 1.7, 2.4, np.inf])
-    k = np.searchsorted(levels, np.exp(y)) - 1
-    line = fitted(np.column_stack([levels[k], levels[k + 1]]))
-    assert line.median() == pytest.approx(math.exp(0.7), rel=0.03)
-    assert line.dispersion == pytest.approx(0.4, rel=0.05)
-
-
-def test_records_fail_between_two_stripes():
-    rows = [("a", 1.0, "ok", 0.01), ("a", 2.0, "ok", 0.03), ("b", 1.0, "slip_exceeded", 0.0)]
-    rows += [("b", 2.0, "ok", 0.01), ("c", 1.0, "ok", 0.0), ("c", 2.0, "newton_failed", 9.0)]
-    outcome = {"ok": "complete", "slip_exceeded": "bearing failure"}
-    frame = pd.DataFrame(rows, columns=["motion", "im", "status", "drift"]).assign(
-        scale=1.0, message=""
-    )
-    frame["outcome"] = [outcome.get(s, "numerical failure") for s in frame["status"]]
-    runs = IntensityRuns(frame, Intensity(kind="Sa", period=3.0), {"drift": "1"})
-    found = bounds_of(runs, LimitState("drift", "drift", 0.02), ["a", "b", "c"])
-    np.testing.assert_array_equal(found, [[1.0, 2.0], [0.0, 1.0], [1.0, np.inf]])
-
+from validation.study.uncertainty import halves
 
 # Hazard, consequences, annual loss
 
@@ -136,20 +93,16 @@ def test_annual_loss_under_a_power_law():
     assert float(found) == pytest.approx(5e-4 * (2.0 - 0.25) + 1e-3 / 16.0, rel=1e-4)
 
 
-def test_what_a_property_changes_on_average():
-    rng = np.random.default_rng(2)
-    shares = rng.random((80, 3))
-    slopes = np.array([[1.0, -0.5, 0.0], [2.0, -0.5, 0.0], [3.0, -0.5, 0.0]])
-    results = shares @ slopes.T + np.array([5.0, 0.0, -4.0])
-    results[3, 1] = np.nan
-    found = effects(results, shares, ["a", "b", "c"])
-    assert found["a"][0] == pytest.approx(0.68 * 2.0)
-    assert found["a"][1] < 0.68 * 2.0 < found["a"][2]
-    np.testing.assert_allclose(found["b"], -0.34, atol=1e-9)
-    np.testing.assert_allclose(found["c"], 0.0, atol=1e-9)
+def test_halves_of_a_property():
+    """By hand: of a none and half collapse below and above the median, of b half and all."""
+    over = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, np.nan]
+    values = np.array([1.0, 2.0, 5.0, 6.0, 1.0, 2.0, 5.0, 6.0, 3.0])
+    found = halves(over, values, list("aaaabbbba"))
+    # lower 0 and 1/2, upper 1/2 and 1; the run of 3.0 is unknown
+    assert found == pytest.approx([0.25, 0.75, 0.5, 0.5, 0.5])
 
 
-@pytest.mark.parametrize("part", ["loss", "uncertainty"])
+@pytest.mark.parametrize("part", ["records", "after", "motions", "loss", "uncertainty"])
 def test_parts_are_campaigns_of_devices_of_one_plan(part):
     for path in files_of(part).values():
         with warnings.catch_warnings(action="ignore", category=DesignWarning):  # soft rims

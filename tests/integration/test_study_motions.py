@@ -2,7 +2,6 @@
 
 import math
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -69,43 +68,50 @@ def test_a_cell_of_the_map_is_for_the_device_that_stands_or_is_lower():
     assert near_fault.frontier(own, PAIRS[PLAN][0]) == [math.inf] * 6
 
 
-def test_records_are_turned_and_followed():
-    """Names of the files' motions are those that the numbers look for."""
-    names = [*read_campaign(HERE / "motions-turned.toml").motions]
-    runs = SimpleNamespace(table=pd.DataFrame({"motion": names}), those=np.flatnonzero)
-    parts = [motions.at_angle(runs, angle) for angle in motions.ANGLES]
-    assert [len(part) for part in parts] == [22, 22, 22]
-    assert np.unique(np.concatenate(parts)).size == 66
-    names = [*read_campaign(HERE / "motions-same.toml").motions]
-    assert len(names) == 4 * 22
-    assert sum(", then " in name for name in names) == 3 * 22
-    file = campaign_file(HERE / "motions-vertical.toml")
-    assert file.motions.vertical == ("with", "without")
+def test_motions_have_the_names_that_the_numbers_look_for():
+    turned, same = (
+        [*read_campaign(HERE / f"motions-{name}.toml").motions] for name in ("turned", "same")
+    )
+    assert len(turned) == len(same) == 3 * 22
+    for angle in motions.ANGLES[1:]:
+        assert sum(name.endswith(f", {angle} degrees") for name in turned) == 22
+    assert sum(", then " in name for name in same) == 2 * 22
+    assert campaign_file(HERE / "motions-vertical.toml").motions.vertical == ("with", "without")
 
 
 def runs_of(rows):
-    columns = ("motion", "scale", "outcome", "ductility", "residual interface slip")
-    table = pd.DataFrame(rows, columns=columns)
-    over = (table["outcome"] == "bearing failure") | (table["ductility"] > 9.0)
-    over = over.astype(float).where(table["outcome"] != "numerical failure")
-    tables = SimpleNamespace(
-        runs={"LIR-DCFP": SimpleNamespace(table=table, exceeded=lambda limit: over.to_numpy())},
-        comparison=SimpleNamespace(collapse=None),
-    )
-    return tables
+    """Return runs by motion, outcome, ductility and residual slip, with those over 9."""
+    ends = {"ok": "complete", "fails": "bearing failure", "unknown": "numerical failure"}
+    columns = ("motion", "outcome", "ductility", "residual interface slip")
+    table = pd.DataFrame(rows, columns=columns).assign(scale=2.0)
+    table["outcome"] = table["outcome"].map(ends)
+    over = ((table["outcome"] == ends["fails"]) | (table["ductility"] > 9.0)).astype(float)
+    return table.assign(over=over.where(table["outcome"] != ends["unknown"]))
 
 
-def test_only_survivors_of_the_first_shock_count():
+def test_survivors_of_the_first_shock_count():
     """Of a (fails at once), b (collapses in the second), c (holds), d (analysis of both failed)."""
-    ok, fails, unknown = "complete", "bearing failure", "numerical failure"
     alone = runs_of(
-        [("a", 2.0, fails, 1.0, 0.0), ("b", 2.0, ok, 3.0, 0.01), ("c", 2.0, ok, 1.0, 0.02),
-         ("d", 2.0, ok, 1.0, 0.03)]
+        [("a", "fails", 1.0, 0.0), ("b", "ok", 3.0, 0.01), ("c", "ok", 1.0, 0.02),
+         ("d", "ok", 1.0, 0.03)]
     )  # fmt: skip
     both = runs_of(
-        [("a, then 1 b", 2.0, fails, 1.0, 0.0), ("b, then 1 c", 2.0, ok, 9.5, 0.05),
-         ("c, then 1 d", 2.0, ok, 2.0, 0.06), ("d, then 1 a", 2.0, unknown, 1.0, 0.0)]
+        [("a, then 1 b", "fails", 1.0, 0.0), ("b, then 1 c", "ok", 9.5, 0.05),
+         ("c, then 1 d", "ok", 2.0, 0.06), ("d, then 1 a", "unknown", 1.0, 0.0)]
     )  # fmt: skip
-    (row,) = motions.second_shock(alone, both, "LIR-DCFP", "next", 1.0)
-    assert (row["survived"], row["collapsed"], row["bearing"], row["intact"]) == (2, 1, 0, 0)
-    assert row["slip"] == pytest.approx([15.0, 55.0])
+    held = both.assign(over=both["over"].where(both["over"].isna(), 0.0), ductility=1.0)
+    found = motions.second_shocks({"LIR-DCFP": [alone, both], "DCFP": [alone, held]}, "next", 1.0)
+    assert (found["LIR-DCFP"]["survived"], found["LIR-DCFP"]["collapsed"]) == (2, 1)
+    assert found["LIR-DCFP"]["slip"] == pytest.approx([15.0, 55.0])
+    assert found["DCFP"]["collapsed"] == 0
+    assert found["apart"] == [1, 0, 1.0]
+
+
+def test_the_angle_decides_where_outcomes_differ():
+    """Record a collapses turned by 30 degrees alone, b at all angles, c is unknown at one."""
+    names = [f"{name}{turn}" for name in "abc" for turn in ("", ", 30 degrees", ", 60 degrees")]
+    over = [0.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0, np.nan, 0.0]
+    own = pd.DataFrame({"motion": names, "scale": 2.0, "over": over})
+    found = motions.turned({"LIR-DCFP": own, "DCFP": own.assign(over=0.0)})
+    assert found["decides"] == {"LIR-DCFP": [1, 2], "DCFP": [0, 3]}
+    assert found["angles"]["30"] == {"LIR-DCFP": [2, 2], "DCFP": [0, 3], "apart": [2, 0, 0.5]}

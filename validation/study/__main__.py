@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 PARTS = (
     "near_fault",
     "records",
-    "rims",
     "device",
     "buildings",
     "motions",

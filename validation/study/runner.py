@@ -24,7 +24,7 @@ import pandas as pd
 
 from frames.design.project.inputs import bearing_of, motions_of
 from frames.risk.campaign.file import campaign_file, read_campaign, run_search
-from frames.risk.campaign.page import device_curves
+from frames.risk.campaign.page import device_curves, loss_curves
 from frames.risk.campaign.plot_response import response_by_factor
 from frames.risk.campaign.store import open_campaign
 from frames.risk.campaign.tables import CONFIDENCE, CampaignTables
@@ -247,6 +247,8 @@ def _figures(part: str, every: Mapping[str, CampaignTables]) -> dict[str, Callab
         comparison = tables.comparison
         groups = {"": list(tables.runs)} if comparison is None else comparison.groups
         start = _start(part, name)
+        if len(tables.loss):
+            found[f"{start}loss.png"] = partial(loss_curves, tables.loss, tables.axis)
         for k, devices in enumerate(groups.values(), start=1):
             end = ".png" if len(groups) == 1 else f"-{k}.png"
             found[f"{start}response{end}"] = partial(

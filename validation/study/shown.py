@@ -1,4 +1,4 @@
-"""How templates of the study show tables: rows chosen, numbers with their intervals, Markdown."""
+"""How templates of the study show tables, and the sentences that their pages share."""
 
 from __future__ import annotations
 
@@ -10,20 +10,34 @@ from lir_element.units import STANDARD_GRAVITY as G
 from validation.page import table as markdown
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     Told = Mapping[str, Any]
 
+SETTING = (
+    "The building has three storeys of steel frames that yield, and the bearings have a plan of "
+    "689 mm ([study.md](study.md)). One device is an LIR-DCFP within the checks of the package, the "
+    "others are DCFPs ([study_device.md](study_device.md)). Rims of 1 W yield at the load of their "
+    "bearing and break at 20 mm."
+)
+"""Of parts that have the building and devices of the part on devices."""
+
+READING = (
+    "Cells begin with the verdict of an exact two-sided sign test of the records; the verdicts of a "
+    "campaign and set of records have a false-discovery rate of 10 %. The median intensity of the "
+    "LIR-DCFP over that of the DCFP follows, with its interval of 90 %: above 1 the LIR-DCFP is "
+    'better. The last two numbers count records. "3 to 0": the LIR-DCFP exceeds the limit less often '
+    "in 3 records, and more often in none. Comparisons share records and the building, so they are "
+    "not independent."
+)
+"""Of tables of `judged`."""
+
 DEMANDS = {
-    "ductility": ("ductility [-]", 1.0, ".2f"),
     "storey drift, mean": ("storey drift [%]", 1e2, ".2f"),
     "floor acceleration in plan, mean": ("floor acceleration [g]", 1.0 / G, ".2f"),
-    "bearing displacement": ("bearing displacement [mm]", 1e3, ".0f"),
-    "residual bearing displacement": ("residual displacement [mm]", 1e3, ".1f"),
-    "interface slip": ("interface slip [mm]", 1e3, ".1f"),
-    "residual interface slip": ("residual slip [mm]", 1e3, ".1f"),
-    "rim force": ("rim force [kN]", 1e-3, ".0f"),
     "base shear over weight": ("base shear / W", 1.0, ".2f"),
+    "ductility": ("ductility [-]", 1.0, ".1f"),
+    "bearing displacement": ("bearing displacement [mm]", 1e3, ".0f"),
 }
 """Demands of the table "response": their text, a factor from SI, a format."""
 
@@ -38,11 +52,6 @@ def where(table: pd.DataFrame, **chosen: object) -> pd.DataFrame:
         values = value if isinstance(value, (list, tuple)) else [value]
         table = table[table[column].isin(values)]
     return table
-
-
-def unit_of(table: pd.DataFrame, name: str) -> str:
-    """Return a column of a table by its name without the unit: "median" of "median [m/s2]"."""
-    return next((str(c) for c in table.columns if str(c).split(" [")[0] == name), name)
 
 
 def interval(row: Mapping[str, Any], name: str, form: str = ".2f", factor: float = 1.0) -> str:
@@ -71,40 +80,46 @@ def rows_of(table: pd.DataFrame) -> list[dict[str, Any]]:
     return [{str(key): value for key, value in row.items()} for _, row in table.iterrows()]
 
 
-def crossed(
-    table: pd.DataFrame, rows: str | Sequence[str], columns: str, name: str, form: str = ".2f"
-) -> str:
-    """Return a table in Markdown: values of one column along, a number with interval a cell."""
-    keys = [rows] if isinstance(rows, str) else list(rows)
-    heads = list(dict.fromkeys(map(str, table[columns])))
-    found: dict[tuple[str, ...], dict[str, str]] = {}
-    for row in rows_of(table):
-        place = tuple(str(row[key]) for key in keys)
-        found.setdefault(place, {})[str(row[columns])] = interval(row, name, form)
-    lines = [[*place, *(cells.get(h, NONE) for h in heads)] for place, cells in found.items()]
-    return markdown([*keys, *heads], lines)
+def verdict_of(row: Mapping[str, Any]) -> str:
+    """Return verdict, ratio of medians and records that differ of a row of ratios, as text."""
+    return f"{row['verdict']}, {interval(row, 'ratio')}; {row['less']:.0f} to {row['more']:.0f}"
 
 
-def judged(ratios: pd.DataFrame, rows: str, corner: str = "") -> str:
-    """Return ratios in Markdown with verdicts of exact tests, a row a limit state or the like."""
-    others = list(dict.fromkeys(map(str, ratios["over"])))
+def judged(ratios: pd.DataFrame, corner: str = "limit state") -> str:
+    """Return ratios in Markdown with verdicts of exact tests, a row a limit state."""
+    others: dict[str, None] = {}
     found: dict[str, dict[str, str]] = {}
     for row in rows_of(ratios):
-        counts = f"{row['less']:.0f} to {row['more']:.0f}"
-        said = f"{row['verdict']}, {interval(row, 'ratio')}; {counts}"
-        found.setdefault(str(row[rows]), {})[str(row["over"])] = said
+        other = str(row["over"]).removeprefix(f"{row.get('structure')}, ")
+        others[other] = None
+        found.setdefault(str(row["limit state"]), {})[other] = verdict_of(row)
     lines = [[name, *(cells.get(other, NONE) for other in others)] for name, cells in found.items()]
-    return markdown([corner or rows, *others], lines)
+    return markdown([corner, *others], lines)
 
 
-def ended(table: pd.DataFrame, column: str, end: str) -> pd.DataFrame:
-    """Return the rows of a table whose text in a column ends so: devices of several structures."""
-    return table[table[column].str.endswith(end)]
+def margins_table(margins: pd.DataFrame) -> str:
+    """Return failures, collapses and the collapse margin in Markdown, a row a device."""
+    keys = ["device", "runs", "bearing failed", "collapsed", "analysis failed"]
+    keys = ["record set", *keys] if "record set" in margins else keys
+    lines = [
+        [f"{row[key]}" for key in keys] + [interval(row, name) for name in ("median", "margin")]
+        for row in rows_of(margins)
+    ]
+    return markdown([*keys, "median [m/s2] (90 %)", "margin (90 %)"], lines)
 
 
-def crossed_verdicts(ratios: pd.DataFrame, corner: str) -> str:
-    """Return ratios in Markdown with verdicts of exact tests, structures by limit states."""
-    return judged(ratios.assign(over=ratios["limit state"]), "structure", corner)
+def demands_table(response: pd.DataFrame) -> str:
+    """Return median and fractile of 84 % of demands in Markdown, a row an intensity and device."""
+    lines = [
+        [f"{row['factor']:g}", row["structure"]]
+        + [
+            f"{number(row, name + ', median', form, factor)}, "
+            f"{number(row, name + ', 84 %', form, factor)}"
+            for name, (_, factor, form) in DEMANDS.items()
+        ]
+        for row in rows_of(response.sort_values("factor", kind="stable"))
+    ]
+    return markdown(["Sa [m/s2]", "device", *(text for text, *_ in DEMANDS.values())], lines)
 
 
 def causes(failures: pd.DataFrame) -> str:
@@ -115,11 +130,6 @@ def causes(failures: pd.DataFrame) -> str:
     for row in rows_of(failures):
         words.setdefault(str(row["structure"]), []).append(f"{row['runs']} `{row['cause']}`")
     return "Runs that failed: " + "; ".join(f"{n}: {', '.join(w)}" for n, w in words.items()) + "."
-
-
-def brief(reason: object) -> str:
-    """Return why there is no curve, without its remedy."""
-    return "" if pd.isna(reason) else str(reason).split(":")[0].split(";")[0]
 
 
 def cost_line(campaigns: Mapping[str, Told]) -> str:
