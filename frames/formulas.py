@@ -1,8 +1,7 @@
-"""Formulas of the quantities whose largest values are kept, of numbers or of arrays.
+"""Formulas of the quantities with recorded peaks, for numbers or arrays.
 
-What is taken up step by step (`frames/kernels/quantities.py` compiles them) and what is read off a
-Dataset is one formula. None calls another. Names, units and meanings are in
-`frames.results.quantities`.
+The step-by-step values (`frames/kernels/quantities.py` compiles them) and those of a Dataset have
+one formula. None calls another. Names, units and meanings are in `frames.results.quantities`.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def opposite(value: Numbers) -> Numbers:
-    """Return what is largest where a value is least."""
+    """Return a value that is largest at the least of another."""
     return -value
 
 
@@ -28,7 +27,7 @@ def size(value: Numbers) -> Numbers:
 
 
 def presses(force: Numbers) -> Numbers:
-    """Return 1 where a force presses, else 0."""
+    """Return 1 if a force presses, else 0."""
     return 1.0 * (force > 0.0)
 
 
@@ -48,7 +47,7 @@ def vertical_change(ratio: Numbers) -> Numbers:
 
 
 def is_lifted(ratio: Numbers) -> Numbers:
-    """Return 1 where nothing presses, else 0."""
+    """Return 1 if nothing presses, else 0."""
     return 1.0 * (ratio <= 0.0)
 
 
@@ -65,10 +64,10 @@ def open_gap(
     slip: Numbers,
     axial_force: Numbers,
 ) -> Numbers:
-    """Return how far the axial contact is open [m]; 0 where it is closed.
+    """Return the opening of the axial contact [m]; 0 if it is closed.
 
     `across` is the place of the upper sphere's centre over the lower one in plan, `rise` that of
-    the upper node. Where the contact just closes it is ``c = L n + s`` (docs/theory.md, section 1).
+    the upper node. At closing it is ``c = L n + s`` (docs/theory.md, section 1).
     """
     down = length - rise
     square = across_x * across_x + across_y * across_y + down * down - slip * slip
@@ -79,12 +78,12 @@ def open_gap(
 def interface_share(
     force: Numbers, axial_force: Numbers, static: Numbers, friction: Numbers
 ) -> Numbers:
-    """Return the force of the interface over what its friction holds."""
+    """Return the force of the interface over its friction resistance."""
     return force / (friction * maximum(axial_force, LEAST_SHARE * static))
 
 
 def slips(share: Numbers) -> Numbers:
-    """Return 1 where the interface slips, else 0."""
+    """Return 1 if the interface slips, else 0."""
     return 1.0 * (share >= FULL_SLIP)
 
 
@@ -102,17 +101,17 @@ def pressed_eccentricity(
 def closing_speed(
     slip_x: Numbers, slip_y: Numbers, way_x: Numbers, way_y: Numbers, time: Numbers, length: Numbers
 ) -> Numbers:
-    """Return how fast both sliders close on each other if the slider's tilt is held [m/s].
+    """Return the closing speed of both sliders at constant tilt of the slider [m/s].
 
-    The mass turns about the centre of the bottom sphere at ``sqrt(L^2 + s^2)`` (docs/theory.md,
-    section 2): it closes where it moves against the slip. `way` is what it moves in the `time`.
+    The mass rotates about the centre of the bottom sphere at ``sqrt(L^2 + s^2)`` (docs/theory.md,
+    section 2): it closes if it moves against the slip. `way` is its motion in the `time`.
     """
     closes = maximum(0.0 - slip_x * way_x - slip_y * way_y, 0.0)
     return closes / (time * sqrt(length * length + slip_x * slip_x + slip_y * slip_y))
 
 
 def sliding_power(load: Numbers, friction: Numbers, speed: Numbers) -> Numbers:
-    """Return what the friction of a surface takes up under a load [N m/s]."""
+    """Return the power of a surface's friction under a load [N m/s]."""
     return load * friction * speed
 
 

@@ -38,17 +38,17 @@ class RunStatus(IntEnum):
 
     @property
     def meaning(self) -> str:
-        """What happened, in a sentence."""
+        """Description of the status, in a sentence."""
         return _TEXT[self][0]
 
     @property
     def remedy(self) -> str:
-        """What to try."""
+        """Remedy for the status."""
         return _TEXT[self][1]
 
     @property
     def is_bearing_failure(self) -> bool:
-        """Whether the bearing itself failed (the computation did not)."""
+        """True if the bearing itself failed (not the computation)."""
         return self in {
             RunStatus.SLIP_EXCEEDED,
             RunStatus.RIM_OVERRUN,
@@ -59,7 +59,7 @@ class RunStatus(IntEnum):
 
     @property
     def is_complete(self) -> bool:
-        """Whether a run went to its end, whatever is to be said of it."""
+        """True if a run reached its end, with or without warnings."""
         return self in {RunStatus.OK, RunStatus.INACCURATE, RunStatus.BEARING_LOST}
 
 
@@ -130,7 +130,7 @@ _TEXT = {
 
 
 class AnalysisError(RuntimeError):
-    """An analysis that failed: what happened, when, where, and what to try.
+    """Raised if an analysis fails: the failure, its time and place, and the remedy.
 
     Attributes
     ----------
@@ -141,9 +141,9 @@ class AnalysisError(RuntimeError):
     where : str
         The bearing or degree of freedom concerned.
     detail : str
-        How far, or why; empty where there is nothing to add.
+        Extent or reason; empty if there is no more to say.
     data : xarray.Dataset or None
-        What was computed up to the failure.
+        Results up to the failure.
 
     Examples
     --------
@@ -174,14 +174,14 @@ class AnalysisError(RuntimeError):
 
 
 class AnalysisInterrupted(KeyboardInterrupt):
-    """Ctrl-C in an analysis: stops loops and scripts as ever, and keeps what was computed.
+    """Raised by Ctrl-C in an analysis: stops loops and scripts, and keeps the results so far.
 
     Attributes
     ----------
     time : float
         Time that the analysis had reached [s].
     data : xarray.Dataset
-        What was computed until then; its attribute `status` is "interrupted".
+        Results until then; its attribute `status` is "interrupted".
 
     Examples
     --------
@@ -198,7 +198,7 @@ class AnalysisInterrupted(KeyboardInterrupt):
         super().__init__(time, data)
 
     def __str__(self) -> str:
-        """Say when it stopped, and where the results are."""
+        """Return the time of the stop, and the place of the results."""
         return (
             f"interrupted at t = {self.time:.6g} s of the analysis: what was computed is in the "
             "attribute `data` of this AnalysisInterrupted"
@@ -206,13 +206,13 @@ class AnalysisInterrupted(KeyboardInterrupt):
 
 
 def failure_message(status: RunStatus, time: float, where: str, detail: str = "") -> str:
-    """Return the sentence that reports a failure: what, when, where, and what to try."""
+    """Return the sentence on a failure: its kind, time, place, and the remedy."""
     extra = f" ({detail})" if detail else ""
     return f"at t = {time:.6g} s, {where}: {status.meaning}{extra}. What to try: {status.remedy}."
 
 
 class AnalysisWarning(TextWarning):
-    """An analysis that stopped early and handed back what it had computed, or is doubtful.
+    """Warning: an analysis stopped early and returned its results so far, or is doubtful.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""Formulas of what results derive from a bearing's state, of numbers or of arrays.
+"""Formulas of results derived from a bearing's state, for numbers or arrays.
 
-What is read off a record at one step (`kernels/derived.py` compiles them) and off all steps of a
-result is one formula. None calls another.
+The value of a record at one step (`kernels/derived.py` compiles them) and those of all steps of a
+result have one formula. None calls another.
 """
 
 from __future__ import annotations
@@ -40,11 +40,11 @@ def eccentricity(
     slip_x: Numbers,
     slip_y: Numbers,
 ) -> Numbers:
-    """Return how far the resultant in the interface lies off the sliders' axes, the larger [m].
+    """Return the larger distance of the interface's resultant from the sliders' axes [m].
 
     Moment equilibrium of the bottom slider about the centre of its sphere (10.2); `rim_force` and
-    `friction` are those of the bottom surface, `height` that of the interface over its vertex. 0
-    where the axial force has faded to `floor`.
+    `friction` are those of the bottom surface, `height` that of the interface over its vertex. 0 if
+    the axial force has faded to `floor`.
     """
     size = sqrt(axis_x * axis_x + axis_y * axis_y)
     unit = size + (size == 0.0)
@@ -58,9 +58,9 @@ def eccentricity(
 
 
 def resultant_offset(by_forces: Numbers, of_pressure: Numbers) -> Numbers:
-    """Return the eccentricity: of the pressure itself where sliders are bodies (not 0) [m].
+    """Return the eccentricity: of the pressure itself if sliders are bodies (not 0) [m].
 
-    The forces on them do not tell, for inertia takes its part when a rim is met.
+    The forces on them do not give it, because their inertia acts at rim contact.
     """
     known = of_pressure > 0.0
     return of_pressure * known + by_forces * (1.0 - known)

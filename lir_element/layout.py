@@ -1,10 +1,9 @@
 """Record layouts, declared once: dtypes, response names, units and labels all come from here.
 
-Three records belong to a bearing: `PROPS` (constants of its kernels), `STATE` (what is
-committed) and `WORK` (scratch of one state determination; nothing in it survives). Where the
-sliders are bodies with contact points, `SLIDERS` and `POINT` hold their constants, `BODIES` and
-`TOUCH` their state, `SEARCH` what is committed to speed up the next search for them, `SCRATCH` the
-rest.
+Three records belong to a bearing: `PROPS` (constants of its kernels), `STATE` (the committed state)
+and `WORK` (scratch of one state determination; nothing in it survives). If the sliders are bodies
+with contact points, `SLIDERS` and `POINT` have their constants, `BODIES` and `TOUCH` their state,
+`SEARCH` committed data that speed up the next search for them, `SCRATCH` the rest.
 """
 
 from __future__ import annotations
@@ -160,7 +159,7 @@ STATE_FIELDS = (
 )
 
 SPIN_BALANCE = 12
-"""Where what `by_turn` returns has the sum of the moments that spin the sliders."""
+"""Place of the sum of the moments that spin the sliders in the result of `by_turn`."""
 
 _W_VECTOR, _W_MATRIX, _W_PAIR = (3,), (3, 3), (2,)
 WORK_FIELDS = (
@@ -441,7 +440,7 @@ Records: TypeAlias = npt.NDArray[Any]
 """Array of records."""
 
 Floats: TypeAlias = npt.NDArray[np.float64]
-"""Array of float64; the shape is given where it is used."""
+"""Array of float64; its users give the shape."""
 
 Words: TypeAlias = npt.NDArray[np.int64]
 """Records seen as rows of 64-bit words."""
@@ -473,4 +472,4 @@ Touch: TypeAlias = Any
 Mapped: TypeAlias = tuple[
     float, float, float, float, float, float, float, float, float, float, float
 ]
-"""What the return map of friction gives: see `kernels.slip.friction_map`."""
+"""Result of the return map of friction: see `kernels.slip.friction_map`."""

@@ -1,4 +1,4 @@
-"""Texts for people that keep what they are made of, a template and its values; small tables."""
+"""Texts that keep their template and its values; small tables."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def joined(*parts: str, by: str = "; ") -> str:
 
 
 def keeping_texts(make: Callable[P, T]) -> Callable[P, T]:
-    """Let tables of pandas that a function makes keep texts, and not their letters alone."""
+    """Keep texts with their templates in pandas tables of a function."""
     import pandas as pd
 
     made: Callable[P, T] = pd.option_context("mode.string_storage", "python")(make)
@@ -76,7 +76,7 @@ def keeping_texts(make: Callable[P, T]) -> Callable[P, T]:
 
 
 def text_from(plain: object) -> str:
-    """Return a text from what `Text.plain` gave, through JSON or not; others as they are."""
+    """Return a text from the output of `Text.plain`, through JSON or not; others unchanged."""
     if not isinstance(plain, list):
         return str(plain)
     template, values = plain
@@ -141,11 +141,11 @@ def html_table(title: str, rows: Rows, head: Sequence[str] = (), notes: Sequence
 
 
 class Shown(ABC):
-    """What has a few rows to show."""
+    """An object with a few rows to show."""
 
     @abstractmethod
     def _rows(self) -> list[tuple[str, str]]:
-        """Return what is shown: what it is, and its value."""
+        """Return the rows: name and value."""
 
     def __repr__(self) -> str:
         """Return it on one line."""

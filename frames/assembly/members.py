@@ -9,7 +9,7 @@ Local axes: see `frames.model.axes`; `inertia_y` governs bending in the local x-
 Sources: Przemieniecki, Theory of Matrix Structural Analysis (1968), sec. 5.6 and ch. 15 [Prz68];
 McGuire, Gallagher & Ziemian, Matrix Structural Analysis, 2nd ed. (2000), ch. 4 and 9 [MGZ00].
 
-End zones are rigid: a member's end lies at the vector d from its node, the rigid arm that turns
+End zones are rigid: a member's end is at the vector d from its node, the rigid arm that rotates
 with the node: its displacement is :math:`u + \theta \times d`, its rotation that of the node.
 """
 
@@ -60,10 +60,10 @@ def at_ends(forces: FloatArray, arms: FloatArray) -> FloatArray:
 def arms_geometric_stiffness(arms: FloatArray, axial_force: FloatArray) -> FloatArray:
     r"""Return the geometric stiffness of rigid arms under the axial forces of their members.
 
-    To second order an arm d that turns by :math:`\theta` moves its end by
-    :math:`\theta \times (\theta \times d) / 2`; what the axial force along e does on it makes the
-    stiffness :math:`\pm P (e d^T / 2 + d e^T / 2 - e \cdot d \, I)` on the node's rotation, plus at
-    end j. A rigid column that leans with its node is the simplest case: P d.
+    To second order an arm d that rotates by :math:`\theta` moves its end by :math:`\theta \times
+    (\theta \times d) / 2`. The work of the axial force along e on that is the stiffness :math:`\pm
+    P (e d^T / 2 + d e^T / 2 - e \cdot d \, I)` on the node's rotation, plus at end j. A rigid
+    column that leans with its node is the simplest case: P d.
 
     Shapes: arms (n, 2, 3), axial_force (n,), result (n, 12, 12).
     """
@@ -208,10 +208,10 @@ def fixed_end_forces(members: MemberArrays, load: FloatArray) -> FloatArray:
 
 
 def released(stiffness: FloatArray, releases: Sequence[Sequence[int]]) -> FloatArray:
-    """Return how the local displacements of members follow those of their nodes.
+    """Return the local displacements of members by those of their nodes.
 
-    Where an end is free of a moment, its own rotation is the one without it: the elastic stiffness
-    is condensed (Guyan), and what is done to loads and to the geometric stiffness follows from it.
+    If an end is free of a moment, its own rotation is the one without it: the elastic stiffness is
+    condensed (Guyan), and loads and geometric stiffness are transformed with it.
 
     Shapes: stiffness (n, 12, 12), releases (n,), result (n, 12, 12).
     """

@@ -32,7 +32,7 @@ CONSTANTS = 50
 """Constants of a part, at most: those of two hinges."""
 
 HINGE = 30
-"""Where the constants of hinge i begin; those of hinge j follow after `STRIDE`."""
+"""First place of the constants of hinge i; those of hinge j follow after `STRIDE`."""
 
 STRIDE = 10
 
@@ -43,7 +43,7 @@ N_PLASTIC = 6
 """Plastic elongation, rotation about y and z of hinge i, then of hinge j: first in the state."""
 
 WORK_DONE = 8
-"""Where the state of a part has the work it has done; of hinge j it is the next one."""
+"""Place of the work of a part in its state; that of hinge j is the next one."""
 
 SCRATCH = (18, 16)
 """Room that the solution of a hinged member needs."""
@@ -64,8 +64,8 @@ class NonlinearParts:
     kind: IntArray  # (n,) law by number (frames/kernels/laws.py)
     first: IntArray  # (n + 1,) first deformation of each part
     par: FloatArray  # (n, 50) constants of the laws
-    # (m,) stiffness in the linear structure [N/m, N m/rad]; 0 of what is put in under permanent
-    # loads, -1 of hinged members, whose stiffness is the member's
+    # (m,) stiffness in the linear structure [N/m, N m/rad]; 0 of parts added under permanent loads,
+    # -1 of hinged members, whose stiffness is the member's
     elastic: FloatArray
     scale: FloatArray
     """(m,) factor that makes a force of a moment: 1 / length of the member [1, 1/m]"""
@@ -85,7 +85,7 @@ class NonlinearParts:
 
 
 class PlacedBearing(NamedTuple):
-    """A bearing of a system: its name, the indices of its nodes, what it is."""
+    """A bearing of a system: its name, the indices of its nodes, the bearing itself."""
 
     name: str
     i: int
@@ -95,15 +95,15 @@ class PlacedBearing(NamedTuple):
 
 @dataclass(frozen=True)
 class MemberTable:
-    """What force recovery and the geometric stiffness need of the `n` members."""
+    """Data of the `n` members for force recovery and the geometric stiffness."""
 
     names: tuple[str, ...]  # (n,) names, in the order of all member arrays
     arrays: MemberArrays  # section constants, lengths and local axes
     nodes: IntArray  # (n, 2) node indices of the ends i and j
     offsets: FloatArray  # (n, 2, 3) from the nodes to the members' ends [m]
     arms: FloatArray  # (n, 2, 3) the same in local axes
-    # (n, 12, 12) local displacements of the members from those of their nodes: what releases and
-    # offsets do
+    # (n, 12, 12) local displacements of the members from those of their nodes, with releases and
+    # offsets
     follow: FloatArray
     stiffness: FloatArray
     """(n, 12, 12) elastic stiffness in local axes, over the displacements of the nodes"""
@@ -140,8 +140,8 @@ class System:
     mass: SparseMatrix  # (n_free, n_free) mass; rows of a DOF without mass are zero
     # (n_free, n_free) of the superelements; empty without. `Frame.damping` is not in it
     damping: SparseMatrix
-    # (n_nodes, 6) masses by node: diagonal of the lumped ones, of superelements what a unit
-    # translation moves [kg, kg m2]
+    # (n_nodes, 6) masses by node: diagonal of the lumped ones, of superelements for a unit
+    # translation [kg, kg m2]
     node_mass: FloatArray
     load: FloatArray  # (n_free,) weights and permanent loads
     # (n_free, 3) transform.T @ M @ unit translation along x, y, z [kg]: a ground acceleration a_g
@@ -155,7 +155,7 @@ class System:
     node_load: FloatArray  # (6 n_nodes,) weights and permanent loads before elimination [N, N m]
     members: MemberTable  # the members
     elements: ElementTable  # the line elements of superelements
-    features: Features  # what is modelled
+    features: Features  # modelled features
     parts: NonlinearParts  # links and hinged members
 
     @cached_property
@@ -171,8 +171,8 @@ class System:
     @cached_property
     def bearing_rows(self) -> SparseMatrix:
         """Rows of the transform that give the bearings' displacements, (12 n_bearings, n_free)."""
-        # those of rotations are empty where plate rotation is left out: neither do the nodes'
-        # rotations reach a bearing, nor its moments the nodes
+        # those of rotations are empty without plate rotation: then neither the nodes' rotations
+        # reach a bearing, nor its moments the nodes
         nodes = np.array([(b.i, b.j) for b in self.bearings], dtype=np.int64).reshape(-1, 2)
         rows = (6 * nodes[:, :, None] + np.arange(6)).reshape(-1)
         if self.features.plate_rotation:
@@ -184,7 +184,7 @@ class System:
 
     @cached_property
     def above_bearings(self) -> BoolArray:
-        """Whether members, springs, superelements, ties or diaphragms join a node to a bearing."""
+        """True for nodes joined to bearings by a member, spring, superelement, tie or diaphragm."""
         count = len(self.node_names)
         held, tied = self.node_stiffness.tocoo(), self.transform.tocoo()
         rows = np.concatenate([held.coords[0], tied.coords[0]]) // 6
@@ -206,7 +206,7 @@ class System:
         )
 
     def on(self, devices: Iterable[LIRBearing]) -> System:
-        """Return the same structure on other bearings; what was formed of it alone is shared."""
+        """Return the same structure on other bearings; data of the structure alone are shared."""
         found = copy.copy(self)
         placed = zip(self.bearings, devices, strict=True)
         vars(found)["bearings"] = tuple(old._replace(bearing=device) for old, device in placed)

@@ -1,7 +1,7 @@
 """The frame in bearing coordinates as the time loop reads it, and its bearings.
 
-Coordinates that many bearings share, such as a diaphragm's, are listed apart: see
-frames/kernels/shared_tangent.py for what is made of them.
+Coordinates that many bearings share, such as a diaphragm's, are listed apart:
+frames/kernels/shared_tangent.py uses them.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[Any]
 
-MANY = 200  # unknowns of bearings, from which on what few of them share is kept apart
+MANY = 200  # unknowns of bearings, from which on those that few share are kept apart
 _SHARED_BY = 8  # bearings at least
 _FEW = 0.1  # of the unknowns at most
 
@@ -38,10 +38,10 @@ class ReducedModel(NamedTuple):
     mass_eb: Array
     mass_e: Array
     stiffness_b: Array
-    damping_b: Array  # of no size where there is none
+    damping_b: Array  # of size zero if there is none
     omega2: Array
     damping_e: Array
-    damping_be: Array  # full damping besides; of no size where the modes' is diagonal
+    damping_be: Array  # full damping besides; of size zero if the modes' is diagonal
     damping_eb: Array
     damping_ee: Array
     load_b: Array

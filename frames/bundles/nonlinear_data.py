@@ -44,20 +44,20 @@ PART_SCHEME = dtype_of(
 
 
 class NonlinearElements(NamedTuple):
-    """Nonlinear parts with `m` deformations in all, and how the frame gives way to them.
+    """Nonlinear parts with `m` deformations in all, and the flexibility of the frame.
 
-    The force of a deformation is ``k0 d + g``: k0 belongs to the linear structure, and g is what
-    the time loop adds. What the parts do in a step are their flows: of a link the change of g, of
-    a hinged member the change of the plastic parts of its five deformations, whose forces are
-    ``g = -k0 plastic``. Committed (old) and trial; changed in place.
+    The force of a deformation is ``k0 d + g``: k0 belongs to the linear structure, and the time
+    loop adds g. The changes of the parts in a step are their flows: of a link the change of g, of a
+    hinged member the change of the plastic parts of its five deformations, whose forces are ``g =
+    -k0 plastic``. Committed (old) and trial; changed in place.
     """
 
     kind: Array  # (n,) law by number
     first: Array  # (n + 1,) first deformation of each part
     owner: Array  # (m,) part of each deformation
     par: Array  # (n, constants)
-    elastic: Array  # (m,) k0 of parts of one deformation, 0 where it is not of the structure
-    stiff: Array  # (m,) elastic stiffness, of hinged members too; 0 of what is put in later
+    elastic: Array  # (m,) k0 of parts of one deformation, 0 if it is not of the structure
+    stiff: Array  # (m,) elastic stiffness, of hinged members too; 0 of parts added later
     scale: Array  # (m,) to a force: 1, and 1 / length of the member for moments
     old: Array  # (n, STATE_SIZE)
     new: Array
@@ -73,7 +73,7 @@ class NonlinearElements(NamedTuple):
     flow_old: Array
     predicted: Array
     give: Array  # (m, WIDEST) derivatives of the flows by the part's deformations
-    loose: Array  # (n,) 1 where the force of the step is not linear
+    loose: Array  # (n,) 1 if the force of the step is not linear
     active: Array  # (m,) deformations of loose parts
     live: Array  # (m,) those of them that a step of Newton's method changes the flow of
     place: Array  # (m,) places in the pool
@@ -90,10 +90,10 @@ class NonlinearElements(NamedTuple):
     to_e: Array  # (m, n_e)
     of_e: Array  # (n_e, m) the same, transposed
     push_e: Array  # (m, n_e) loads of a flow of 1 on the modes
-    still: Array  # (m, m) deformations by a flow of 1, of what has no mass
+    still: Array  # (m, m) deformations by a flow of 1, of massless DOFs
     follow: Array  # (halvings, m, n_b) deformations of b with the modes that follow
     lead: Array  # (halvings, n_b, m) the same, transposed
-    slot: Array  # (halvings, m) place in the pool plus one, 0 where there is none
+    slot: Array  # (halvings, m) place in the pool plus one, 0 if there is none
     pool: Array  # (size, m) deformations by a flow of 1, at a step
     load_b: Array  # (n_b,) committed forces g in frame coordinates
     load_e: Array
@@ -108,7 +108,7 @@ class NonlinearElements(NamedTuple):
 
 
 def part_sizes(parts: NonlinearElements | None) -> tuple[int, int, int]:
-    """Return the numbers of deformations and of parts, and of what is kept of a part."""
+    """Return the numbers of deformations and of parts, and the size of a part's data."""
     return (0, 0, 0) if parts is None else (len(parts.d), len(parts.kind), STATE_SIZE)
 
 

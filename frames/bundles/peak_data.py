@@ -33,11 +33,12 @@ PRESSED = 0.05
 """Axial force over the static one below which eccentricities are left to uplift."""
 
 LOADED = 0.5
-"""The same from which on the resultant's offset is held against a limit: what an edge feels goes by
-the load as well, and bearings that lift off or land stand on an edge for an instant."""
+"""The same above which the resultant's offset has a limit: an edge's force depends on the load as
+well, and bearings that lift off or land are on an edge for an instant.
+"""
 
 FULL_SLIP = 1.0 - 1e-9
-"""Share of what the interface's friction holds from which on it counts as slipping."""
+"""Share of the interface's friction resistance above which it counts as slipping."""
 
 LOOSE = 0.01
 """Axial force over the static one up to which sliders are loose between their plates."""
@@ -47,18 +48,18 @@ LEAST_SHARE = 1e-3
 
 
 class Devices(NamedTuple):
-    """What the peaks of bearings are formed with."""
+    """Input of the bearings' peaks."""
 
     records: Array  # (n_bearings,) PROPS, everything modelled
     height: Array  # (n_bearings,) of the interface over the vertex of the bottom cap [m]
     radius: Array  # (n_bearings,) of the bottom surface as the run models it [m]
     floor: Array  # (n_bearings,) axial force below which there is no eccentricity [N]
     static: Array  # (n_bearings,) axial force under permanent loads [N]
-    on_ground: Array  # (n_bearings,) 1 where node i is fixed
+    on_ground: Array  # (n_bearings,) 1 if node i is fixed
 
 
 class Shape(NamedTuple):
-    """What the peaks of the structure are formed with: rows over free degrees of freedom.
+    """Input of the structure's peaks: rows over free degrees of freedom.
 
     With ``x = (b, eta, beyond)`` those that are needed, and behind them the storey shears of
     members, are ``moves.T @ x + rest`` and, of accelerations, ``rates.T @ x``; rows are sparse.
@@ -67,12 +68,12 @@ class Shape(NamedTuple):
     moves: Array  # (n_x, n_u + 2 n_storeys): displacements, then shears along x and y
     rest: Array  # (n_u + 2 n_storeys,)
     rates: Array  # (n_x, n_a)
-    mass_e: Array  # (n_e,) 0 of what lags without mass: it has no acceleration of use
+    mass_e: Array  # (n_e,) 0 of lagging coordinates without mass: their acceleration has no use
     u_start: Array  # rows over displacements: pairs of drifts, then of lines, then three of shear
     u_place: Array
     u_value: Array
     shear: Array  # (3, m + 1) base shear of other supports: of forces beyond, constant
-    crossed: Array  # (n_storeys, n_bearings) 1 where the bearing passes through the storey
+    crossed: Array  # (n_storeys, n_bearings) 1 if the bearing passes through the storey
     a_start: Array  # rows over accelerations: three a node, then three a level
     a_place: Array
     a_value: Array
@@ -104,8 +105,8 @@ class Reached(NamedTuple):
     line_at: Array
     whole: Array  # (5,) base shear, terms of the energy
     whole_at: Array
-    total: Array  # (3,) sliding work, what it is lower by, uplifts
-    lifted: Array  # (n_bearings, 2) time lifted off [s]; 1 where lifted off at the last step
+    total: Array  # (3,) sliding work, its reduction, uplifts
+    lifted: Array  # (n_bearings, 2) time lifted off [s]; 1 if lifted off at the last step
     loose: Array  # (n_bearings, 2) slip gained by loose sliders, slip at the last step [m]
     met: Array  # (n_bearings, 5) of the last step: slip x, y, displacement x, y [m], 1 at a rim
     last: Array  # (2,) time of the last step taken up, and their number

@@ -1,4 +1,4 @@
-"""What the time loop changes: the state of a run, its clock and counts, and what it records."""
+"""Arrays that the time loop changes: the state of a run, its clock and counts, and its records."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class IntegrationState(NamedTuple):
     b: Array  # (n_b,) committed displacement, velocity, acceleration
     v_b: Array
     a_b: Array
-    mean_v_b: Array  # of the last step: a guess free of what rings in v_b
+    mean_v_b: Array  # of the last step: a guess without the ringing in v_b
     mean_v_before: Array  # of the step before that
     e: Array
     v_e: Array
@@ -89,14 +89,14 @@ class IntegrationState(NamedTuple):
     force_before: Array  # (2, n_b) and those of the two steps before
     balanced: Array  # (1,) 1: accelerations are recorded from equilibrium at the end of the step
     balance: Array  # (n_b, n_b) then: accelerations of b by forces, eta following
-    tangent: Array  # (n_v, n_v) the last one made, transposed and factorised: not what is shared
+    tangent: Array  # (n_v, n_v) the last one, transposed and factorised: without the shared part
     order: Array  # (n_v,) of its rows
     across: Array  # (n_h, n_v) how the rest follows the n_h = n_b - n_v shared coordinates
     below: Array  # (n_h, n_v) tangent of their forces by the rest
     corner: Array  # (n_h, n_h) and by themselves, the rest following; transposed and factorised
     corner_order: Array
-    sorted_b: Array  # (n_b,) scratch; this and what follows of no size where nothing is shared
-    linear_step: Array  # (n_b,) what the linear structure makes of the step, of a trial of it,
+    sorted_b: Array  # (n_b,) scratch; this and the following are of size zero if nothing is shared
+    linear_step: Array  # (n_b,) force of the linear structure by the step, by a trial,
     linear_trial: Array
     linear_change: Array  # of Newton's correction,
     linear_before: Array  # (2, n_b) and of the last two steps
@@ -106,10 +106,10 @@ class IntegrationState(NamedTuple):
     weights: Array  # (n_b,) of the coordinates in products of corrections
     corrections: Array  # (m, n_b) of Newton's method since the tangent was renewed
     corrections_next: Array  # (m, n_b) that followed them in their step
-    corrections_linear: Array  # (m, n_s) what the linear structure makes of those
+    corrections_linear: Array  # (m, n_s) products of the linear structure's matrix and those
     corrections_size: Array  # (m,) squares of the former
-    missed: Array  # (3, n_b) by what guesses fell short in the last two steps; the last guess
-    missed_linear: Array  # (3, n_s) and what the linear structure makes of them
+    missed: Array  # (3, n_b) errors of the guesses of the last two steps; the last guess
+    missed_linear: Array  # (3, n_s) products of the linear structure's matrix and these
     missed_friction: Array  # (n_bearings, 2, 2) mean of friction beyond that of a step's ends [N]
     reduced: Array  # (halvings, n_b, n_b) linear effective stiffness of each step size
     has_reduced: Array
@@ -153,7 +153,7 @@ class Ground(NamedTuple):
 
 
 CORRECTED = "corrected-newmark"
-"""Integrator that adds to the velocities what the trapezoidal rule misses in a step."""
+"""Integrator that adds the trapezoidal rule's error of a step to the velocities."""
 
 
 class IntegratorSettings(NamedTuple):
@@ -167,23 +167,23 @@ class IntegratorSettings(NamedTuple):
     force_tolerance: float
     max_iterations: int
     tangent_worth: float  # iterations that a kept tangent may take before a new one is cheaper
-    shared_worth: float  # the same before its shared part alone; as above where none is shared
+    shared_worth: float  # the same before its shared part alone; as above if none is shared
     energy_tolerance: float  # made or lost by contacts in a step, of the energy moved so far
     energy_floor: float  # J, below which that energy does not count
     error_tolerance: float  # of histories over the displacement reached; infinite: fixed step
     smallest_reach: float  # m, displacement that counts as reached from the start
     error_flexibility: float  # s2, displacement that a lasting error of force over mass makes
-    error_time: float  # s, time over which what rings gets out of phase
+    error_time: float  # s, time in which vibrations get out of phase
     error_event: float  # s, step below which an error of force counts as an impulse
-    least_halvings: int  # of a base step, whatever the estimate says
+    least_halvings: int  # of a base step, for any estimate
     error_vertical: float  # share of the vertical error that counts while a bearing is pressed
     error_open: float  # the same while it is lifted off, or lands
-    corrects: int  # 1: velocities get what the trapezoidal rule misses in a step
+    corrects: int  # 1: velocities get the trapezoidal rule's error of a step
     first: int  # base step that the first row of the output holds
 
 
 AT_REST = IntegratorSettings(*(kind() for kind in get_type_hints(IntegratorSettings).values()))
-"""Settings where nothing moves."""
+"""Settings at rest."""
 
 STILL = Ground(np.zeros((2, 3)), 1.0)
 """Ground that does not move."""
@@ -301,7 +301,7 @@ def tangent_arrays(n_b: int, n_h: int, bearings: int) -> dict[str, Any]:
 
 
 class Output(NamedTuple):
-    """What a run records, one entry an output step."""
+    """Records of a run, one entry an output step."""
 
     time: Array
     b: Array

@@ -1,8 +1,8 @@
 """Kernels of damping that couples modes with each other and with the bearings' displacements.
 
-`damping_be` and `damping_ee` of the model are empty where the damping of the modes is diagonal;
-none of this is called then. These kernels take single arrays and stay out of line, so that the
-time loop of ordinary frames is not burdened by them.
+`damping_be` and `damping_ee` of the model are empty if the damping of the modes is diagonal; none
+of this is called then. These kernels have single arrays as arguments and stay out of line, so that
+they do not slow the time loop of ordinary frames down.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def eliminate_modes(
     lead: Floats,
     out: Floats,
 ) -> None:
-    """Take the modes' share from the effective stiffness of b, `out`.
+    """Subtract the modes' share from the effective stiffness of b, `out`.
 
     Sets `inverse`, the modes' effective flexibility, and `follow`, how they follow b, with `lead`
     its transpose.
@@ -87,9 +87,9 @@ def coupled_load(
     rhs_e: Floats,
     h_e: Floats,
 ) -> None:
-    """Take known damping forces from the right-hand sides, then eliminate the modes from b's.
+    """Subtract known damping forces from the right-hand sides, then eliminate the modes from b's.
 
-    `g_b` and `g_e` are the known part of the velocities. Sets `h_e` to what the modes do while b
+    `g_b` and `g_e` are the known part of the velocities. Sets `h_e` to the modes' motion while b
     rests.
     """
     add_product(damping_eb, g_e, -1.0, rhs_b)

@@ -1,4 +1,4 @@
-"""Kernels of Newmark's rule: what a step makes of mass, damping and stiffness, and of rates."""
+"""Kernels of Newmark's rule: effective mass, damping and stiffness of a step, and rates."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Kernels of the energy balance: what a step puts in, and what takes it up.
+"""Kernels of the energy balance: input of a step, and its terms.
 
-All works are taken by the trapezoidal rule, with which Newmark's average acceleration conserves
-energy; what another member of the family adds or takes is the term 'numerical'.
+All works use the trapezoidal rule, with which Newmark's average acceleration conserves energy; the
+gain or loss of another member of the family is the term 'numerical'.
 """
 
 from __future__ import annotations
@@ -84,8 +84,8 @@ def add_energy(
 ) -> None:
     """Add the step's input, gravity, damping and numerical work; set kinetic and elastic.
 
-    Works are taken by the trapezoidal rule. 'numerical' is the work of what the scheme leaves
-    unbalanced at the ends of the step: nothing for Newmark's method but Newton's tolerance.
+    Works use the trapezoidal rule. 'numerical' is the work of the forces that the scheme leaves
+    unbalanced at the ends of the step: zero for Newmark's method but Newton's tolerance.
     """
     energy, clock = run.energy[0], run.clock[0]
     supplied, lifted, bearings = 0.0, 0.0, 0.0
@@ -105,7 +105,7 @@ def add_energy(
         lifted -= model.load_e[k] * run.g_e[k]
     damped = damping_work(model, run)
     before = energy.elastic
-    if parts is not None:  # what is not linear comes into the elastic energy by add_part_energy
+    if parts is not None:  # add_part_energy adds the nonlinear part of the elastic energy
         before -= part_store(parts)
         given = part_energy_on(parts.load_b, parts, parts.to_b, run.step)
         given += part_energy_on(parts.load_e, parts, parts.to_e, run.g_e)
@@ -129,7 +129,7 @@ def add_energy(
 def add_bearing_energy(run: IntegrationState) -> None:
     """Set the bearings' terms of the energy from their accumulated works.
 
-    What friction stores counts against the state at rest, where gravity may have left some.
+    The energy stored by friction counts from the state at rest, which gravity may have loaded.
     """
     energy = run.energy[0]
     energy.low_friction_bottom, energy.low_friction_top, energy.high_friction = 0.0, 0.0, 0.0
@@ -149,9 +149,10 @@ def add_bearing_energy(run: IntegrationState) -> None:
 
 @inlined_by_llvm
 def part_store(parts: NonlinearElements) -> float:
-    """Return what parts store besides what the linear structure would: given less dissipated.
+    """Return the parts' stored energy beyond the linear structure's: given less dissipated.
 
-    Less what `add_missed_impulse` lent: springs hold less in the middle of a step than at its ends.
+    Without the loan of `add_missed_impulse`: springs hold less in the middle of a step than at its
+    ends.
     """
     work = parts.work
     return float(work[3] - work[0] - work[1] - work[2] - work[4])

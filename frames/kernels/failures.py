@@ -41,7 +41,7 @@ def ends_run(props: Records, new: Records) -> int:
 def lose_bearing(
     props: Records, old: Records, old_words: Words, new_words: Words, cause: int, at: int
 ) -> bool:
-    """Leave to its backup the bearing by which no step is found; returns whether there is one.
+    """Replace the bearing without a step by its backup; returns True if there is one.
 
     Its slip is about to snap, or it has left the spheres: `cause`, of bearing `at`.
     """

@@ -17,7 +17,7 @@ from lir_element.kernels.linear import solve_many
 if TYPE_CHECKING:
     from lir_element.layout import Floats
 
-_CORNER = 0.02  # rounds the surface where no moment, and where no axial force is left
+_CORNER = 0.02  # rounds the surface at zero moment, and at zero axial force
 _TOLERANCE = 1e-11  # of the surface
 _MOST = 40
 _TRIES = 8
@@ -69,14 +69,14 @@ def surface(par: Floats, at: int, sigma: Floats, first: Floats, second: Floats) 
 
 @kernel
 def is_inside(par: Floats, at: int, sigma: Floats) -> bool:
-    """Return whether forces are surely elastic: inside what is inscribed in the surface."""
+    """Return True if forces are surely elastic: within the inscribed surface."""
     x, y = sigma[1] * par[at + 1], sigma[2] * par[at + 2]
     return math.sqrt(x * x + y * y) + abs((sigma[0] - par[at + 3]) * par[at]) <= 1.0
 
 
 @kernel
 def is_outside(par: Floats, at: int, sigma: Floats, w: Floats) -> bool:
-    """Return whether forces are outside the surface; the costly test only where there is need."""
+    """Return True if forces are outside the surface; the costly test only if needed."""
     if is_inside(par, at, sigma):
         return False
     return surface(par, at, sigma, w[11, :3], w[13:16, :3]) > 0.0
@@ -154,7 +154,8 @@ def set_row(
 ) -> None:
     """Set a row of the Jacobian: 1 on part `i` of hinge h (none below 0), ``push`` on all stresses.
 
-    `own` stands for the multiplier of hinge h, `mixed` times `push` for each stress of it.
+    `own` is the factor of the multiplier of hinge h, `mixed` times `push` that of each stress of
+    it.
     """
     at, c = HINGE + STRIDE * h, 0
     for g in range(2):
@@ -308,8 +309,8 @@ def turn_hinges(
 ) -> int:
     """Set the changes `flow` of the plastic parts of the five deformations, and derivatives `give`.
 
-    Returns 0 where nothing yields, and neither is set; 1 where a hinge does, -1 where no state was
-    found. `w` (18, 16) is scratch. Where it is `warm`, `new` holds a state near by to start from.
+    Returns 0 if nothing yields, and neither is set; 1 if a hinge does, -1 if no state was found.
+    `w` (18, 16) is scratch. If it is `warm`, `new` contains a near state to start from.
     """
     s, sigma, on, lam = w[9, :5], w[10, :3], w[17, 8:10], w[17, 10:12]
     for k in range(N_PLASTIC, old.shape[0]):
@@ -350,7 +351,7 @@ def hinged_member(
 ) -> int:
     """Set the forces `g` beyond the elastic ones and their derivatives `slope` (5, 5).
 
-    Returns what `turn_hinges` does.
+    Returns the code of `turn_hinges`.
     """
     flow, column = w[8, :5], w[8, 5:10]
     for a in range(5):

@@ -81,7 +81,7 @@ def set_reduced_stiffness(
 
 @kernel
 def renew_products(model: ReducedModel, run: IntegrationState) -> None:
-    """Set what is carried from step to step from the committed state."""
+    """Set the products carried from step to step from the committed state."""
     set_product(model.stiffness_b, run.b, run.held)
     set_product(model.mass_be, run.v_b, run.flow_v)
     set_product(model.mass_be, run.a_b, run.flow_a)
@@ -101,7 +101,7 @@ def set_load(
     settings: IntegratorSettings,
     ground: Ground,
 ) -> None:
-    """Set the right-hand sides: loads at the scheme's instant less what is known of the step."""
+    """Set the right-hand sides: loads at the scheme's instant less the known part of the step."""
     time, dt, at = run.clock[0].time, run.clock[0].dt, run.clock[0].halvings
     am, af, beta, gamma = settings.alpha_m, settings.alpha_f, settings.beta, settings.gamma
     known_v = (1.0 - am) / (beta * dt)
@@ -426,7 +426,7 @@ def try_substep(
     """Try one step: commit it, or halve it for the next attempt. Returns a status code.
 
     A step that fails, or whose estimated error is too large, is halved; after two good steps the
-    step is doubled again where it fits.
+    step is doubled again if it fits.
     """
     clock = run.clock[0]
     if clock.halvings < settings.least_halvings:
@@ -484,12 +484,12 @@ def integrate_chunk(
     last: int,
     trials: int,
 ) -> int:
-    """Go on until `last` base steps are done, or `trials` state determinations are spent.
+    """Integrate until `last` base steps are done, or `trials` state determinations are used.
 
-    Records each base step, `settings.first` in the first row, and the present one if no trials
-    are given. Returns a status code; ``run.clock`` and ``run.counts`` tell where it stands, and
-    the next call goes on from there. If `last` is negative, finds the state at rest: one kernel
-    for both, because each alone holds the state determination of the bearings.
+    Records each base step, `settings.first` in the first row, and the present one if no trials are
+    given. Returns a status code; ``run.clock`` and ``run.counts`` have the progress, and the next
+    call continues from there. If `last` is negative, finds the state at rest: one kernel for both,
+    because each alone contains the state determination of the bearings.
     """
     if last < 0:
         return solve_gravity(

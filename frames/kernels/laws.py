@@ -1,8 +1,8 @@
 """Kernels of the laws of one deformation: force and its derivative from deformation and speed.
 
-`par` holds the constants as `frames.assembly.nonlinear` writes them, `old` and `new` the state.
-All return the force and its derivative by the deformation at the end of the step, `rate` being
-the derivative of the speed by the deformation that the time integration implies.
+`par` has the constants as `frames.assembly.nonlinear` writes them, `old` and `new` the state. All
+return the force and its derivative by the deformation at the end of the step; `rate` is the
+derivative of the speed by the deformation in the time integration.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _MOST = 60  # iterations of a scalar solution
 
 @kernel
 def bilinear(par: Floats, old: Floats, new: Floats, d: float) -> tuple[float, float]:
-    """Linear kinematic hardening; par: k, yield force, hardening modulus; state: plastic part."""
+    """Return force and slope of linear kinematic hardening; par: k, yield force, modulus."""
     k, limit, modulus = par[0], par[1], par[2]
     force = k * (d - old[0])
     over = abs(force - modulus * old[0]) - limit
@@ -56,7 +56,7 @@ def bouc_wen_rate(par: Floats, z: float, energy: float, sense: float) -> float:
 
 @kernel
 def bouc_wen(par: Floats, old: Floats, new: Floats, d_old: float, d: float) -> tuple[float, float]:
-    """Bouc-Wen hysteresis by Runge-Kutta steps; state: z, normalised energy.
+    """Return force and slope of Bouc-Wen hysteresis by Runge-Kutta steps; state: z, energy.
 
     par: k, r, n, beta, strength loss, stiffness loss, yield deformation, then the pinching. The
     solution is a curve over d, so that its slope at the end is the derivative by d.
@@ -88,7 +88,7 @@ def bouc_wen(par: Floats, old: Floats, new: Floats, d_old: float, d: float) -> t
 
 @kernel
 def tie(par: Floats, old: Floats, new: Floats, d: float) -> tuple[float, float]:
-    """Tension only, slack by what it yielded; par: k, yield force, modulus, slack."""
+    """Return force and slope of a slack tension member; par: k, yield force, modulus, slack."""
     k, limit, modulus = par[0], par[1], par[2]
     new[0] = old[0]
     force = k * (d - par[3] - old[0])
@@ -103,7 +103,7 @@ def tie(par: Floats, old: Floats, new: Floats, d: float) -> tuple[float, float]:
 
 @kernel
 def viscous(par: Floats, v: float, rate: float) -> tuple[float, float]:
-    """Dashpot c |v|^a, smooth about zero; par: c, exponent, speed of the smooth part."""
+    """Return force and slope of a dashpot c |v|^a, smooth about zero; par: c, a, smoothing."""
     c, exponent = par[0], par[1]
     if exponent == 1.0:
         return c * v, c * rate
@@ -165,7 +165,7 @@ def maxwell_stage(par: Floats, start: float, h: float) -> tuple[float, float, fl
 def maxwell(
     par: Floats, old: Floats, new: Floats, stretch: float, dt: float
 ) -> tuple[float, float]:
-    """Dashpot and spring in series over a step of even speed; state: force.
+    """Return force and slope of dashpot and spring in series, at even speed; state: force.
 
     par: c, exponent, speed of the smooth part, k. ``f' = k (v - flow(f))`` by a two-stage implicit
     Runge-Kutta method.
@@ -183,7 +183,7 @@ def maxwell(
 
 @kernel
 def stop(par: Floats, d: float, v: float, rate: float) -> tuple[float, float]:
-    """Kelvin-Voigt wall that does not pull; par: gap, k, c, penetration of full damping."""
+    """Return force and slope of a Kelvin-Voigt wall; par: gap, k, c, depth of full damping."""
     x = d - par[0]
     if x <= 0.0:
         return 0.0, 0.0
@@ -200,7 +200,7 @@ def stop(par: Floats, d: float, v: float, rate: float) -> tuple[float, float]:
 def hertz(
     par: Floats, old: Floats, new: Floats, d: float, v_old: float, v: float, rate: float
 ) -> tuple[float, float]:
-    """Hertz' contact with damping; par: gap, k, n, damping; state: speed of approach."""
+    """Return force and slope of a Hertz contact; par: gap, k, n, damping; state: speed."""
     x = d - par[0]
     new[0] = old[0]
     if x <= 0.0:

@@ -1,9 +1,9 @@
 """Kernels of the impulse that the trapezoidal rule misses in a step: "corrected-newmark".
 
 Springs follow the path of a step, which is curved; friction does so until it slips, within a step.
-Forces at the ends of the step do not tell its mean. What they miss is added to the velocities, by
-accelerations, which follow from displacements, so that nothing rings up. All is filtered by the
-effective stiffness: what no step resolves stays as it is (docs/theory_structure.md, 5).
+The forces at the ends of the step do not give its mean. The difference is added to the velocities,
+by accelerations, which follow from displacements, so that no ringing grows. The effective stiffness
+filters all of it: unresolved motion stays unchanged (docs/theory_structure.md, 5).
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from frames.bundles.run_data import IntegrationState, IntegratorSettings
     from lir_element.layout import Floats
 
-_LEAST = 1e-30  # of what is divided by
+_LEAST = 1e-30  # least divisor
 _SLIPS = 1.0 - 1e-9  # of the friction that there may be
 
 
@@ -45,10 +45,10 @@ def missed_mean(
     c_1: float,
     c_2: float,
 ) -> tuple[float, float]:
-    """Return how far the mean of z over a step is beyond that of its ends, y and z.
+    """Return the difference of the mean of z over a step from that of its ends, y and z.
 
-    `d` is the sliding over the yield displacement, `c` half of what its speed gains: of a spring
-    the path misses c / 6 twice, in its mean and in where it leads to.
+    `d` is the sliding over the yield displacement, `c` half of its gain in speed: for a spring the
+    path misses c / 6 twice, in its mean and in its end.
     """
     b_1, b_2 = y_1 + d_1, y_2 + d_2
     square = d_1 * d_1 + d_2 * d_2
@@ -111,11 +111,11 @@ def add_friction_impulse(model: ReducedModel, run: IntegrationState, k: int) -> 
 
 @inlined_by_llvm
 def owe_friction_work(model: ReducedModel, run: IntegrationState, k: int, c_m: float) -> None:
-    """Count what the added impulse does by the friction of bearing `k` as work of that friction.
+    """Count the work of the added impulse on the friction of bearing `k` as friction work.
 
-    That is the work of what friction misses, and of what it gets as springs press with what they
-    miss: by the part of the bearing's tangent that is not symmetric. ``run.h_b`` is the resolved
-    velocity, ``run.rhs_b`` what was added to it.
+    It is the work of the friction's missing impulse, and of the change of friction by the springs'
+    missing impulse: by the part of the bearing's tangent that is not symmetric. ``run.h_b`` is the
+    resolved velocity, ``run.rhs_b`` the addition to it.
     """
     p, old, new, element = model.props[k], run.old[k], run.new[k], run.element_k[k]
     v, gain = run.of_nodes[0], run.of_nodes[1]
@@ -144,9 +144,9 @@ def give_way(
     x_b: Floats,
     x_e: Floats,
 ) -> None:
-    """Set `x_b` and `x_e` to c_m times the step that forces make.
+    """Set `x_b` and `x_e` to c_m times the step under forces.
 
-    They hold the forces on b with the modes eliminated, and what the modes do while b rests;
+    They hold the forces on b with the modes eliminated, and the modes' motion while b rests;
     ``run.h_e`` becomes mass_eb times the result for b.
     """
     substitute(run.tangent, run.order, x_b)
@@ -167,7 +167,7 @@ def set_resolved(
     x_b: Floats,
     x_e: Floats,
 ) -> None:
-    """Set `x_b` and `x_e` to what steps of this size resolve of accelerations or velocities.
+    """Set `x_b` and `x_e` to the part of accelerations or velocities that these steps resolve.
 
     These are `b`, and `x_e` with ``run.h_e``, mass_eb times `b`, which is overwritten.
     """
@@ -187,10 +187,10 @@ def add_missed_impulse(
     parts: NonlinearElements,
     settings: IntegratorSettings,
 ) -> bool:
-    """Add to the new velocities what the trapezoidal rule misses in the step; return whether so.
+    """Add the trapezoidal rule's error of the step to the new velocities; return True if added.
 
-    ``run.rhs_b`` and ``run.rhs_e`` hold what was added. Of its work friction's is owed by the
-    bearings, and that of springs is lent: their energy in the curved path of the step.
+    ``run.rhs_b`` and ``run.rhs_e`` have the addition. Its work on friction goes to the bearings,
+    and that on springs is a loan: their energy in the curved path of the step.
     """
     clock = run.clock[0]
     if clock.kept != clock.halvings + 1:
@@ -233,7 +233,7 @@ def add_missed_impulse(
 
 @inlined_by_llvm
 def push_parts(run: IntegrationState, parts: NonlinearElements) -> None:
-    """Add what `add_missed_impulse` added to the speeds of parts that depend on these."""
+    """Add the change of speed in `add_missed_impulse` to the parts that depend on speed."""
     for i in range(parts.v_old.shape[0]):
         if parts.kind[parts.owner[i]] != HINGES:
             parts.v_old[i] += dot(parts.to_b[i], run.rhs_b) + dot(parts.to_e[i], run.rhs_e)

@@ -1,4 +1,4 @@
-"""Kernels of what nonlinear parts do once a step is found: works, commit, error, defect."""
+"""Kernels of nonlinear parts after a step is found: works, commit, error, defect."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @inlined_by_llvm
 def plastic_work(parts: NonlinearElements, k: int) -> float:
-    """Add what part `k` of the structure dissipated in the step (and stores by hardening)."""
+    """Add the energy that part `k` dissipated in the step (and stored by hardening)."""
     at = parts.first[k]
     total = 0.0
     if parts.kind[k] == HINGES:
@@ -130,7 +130,7 @@ def part_defect(parts: NonlinearElements) -> float:
 
 @kernel
 def wall_defect(stiffness: float, power: float, x_old: float, x: float) -> float:
-    """Return how far the trapezoid's work is from what an elastic wall stores between x_old, x."""
+    """Return the error of the trapezoid's work of an elastic wall between x_old and x."""
     store, mean = 0.0, 0.0
     for sign, depth in ((-1.0, x_old), (1.0, x)):
         if depth > 0.0:

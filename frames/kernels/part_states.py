@@ -1,7 +1,7 @@
 """Kernels of nonlinear parts one by one: their flows in a step, and how the frame gives way.
 
-A flow is what a part does besides being elastic (`NonlinearElements`). The deformations that the
-frame has by a flow of 1 at the present step size are a row of the pool, made when it is asked for.
+A flow is a part's change besides the elastic one (`NonlinearElements`). The deformations of the
+frame by a flow of 1 at the present step size are a row of the pool, made on first use.
 """
 
 from __future__ import annotations
@@ -44,9 +44,9 @@ def part_trial(
     dt: float,
     warm: bool,
 ) -> int:
-    """Set the flows of part `k` at `d`, and their derivatives; `warm` where `new` is near by.
+    """Set the flows of part `k` at `d`, and their derivatives; `warm` if `new` is near.
 
-    Returns 0 where nothing flows, 1 where it does, -1 where there is no state.
+    Returns 0 if nothing flows, 1 if it does, -1 if there is no state.
     """
     at = first[k]
     if kind[k] == HINGES:
@@ -153,7 +153,7 @@ def flow_row(
 ) -> None:
     """Set the deformations by a flow of 1, the modes' own flexibility being `inverse`, or its row.
 
-    `push_e` (n_e,) are its loads on the modes, `still` (m,) deformations of what has no mass.
+    `push_e` (n_e,) are its loads on the modes, `still` (m,) deformations of massless DOFs.
     """
     if inverse.shape[0] == 1:
         for k in range(push_e.shape[0]):
@@ -215,9 +215,9 @@ def follow_of(
     out: Floats,
     lead: Floats,
 ) -> None:
-    """Set how deformations follow b with the modes: by `full` damping's, or the diagonal one.
+    """Set the deformations by b with the modes, with `full` damping or the diagonal one.
 
-    `lead` is the transpose of it.
+    `lead` is its transpose.
     """
     m, n_b = to_b.shape
     for i in range(m):
@@ -240,7 +240,7 @@ def follow_of(
 def set_mode_flexibility(
     model: ReducedModel, parts: NonlinearElements, c_m: float, c_c: float, c_k: float
 ) -> None:
-    """Set ``parts.modes[0]``, the modes' flexibility at a step where damping is diagonal."""
+    """Set ``parts.modes[0]``, the modes' flexibility at a step with diagonal damping."""
     for k in range(parts.to_e.shape[1]):
         parts.modes[0, k] = 1.0 / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
 

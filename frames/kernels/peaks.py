@@ -73,7 +73,7 @@ def add_totals(p: Props, state: State, reached: Reached, k: int, t: float) -> No
 
 @inlined_by_llvm
 def add_loose_slip(static: float, load: float, slip: float, reached: Reached, k: int) -> None:
-    """Add what the slip of a bearing changed by in a step at whose end its sliders are loose."""
+    """Add the change of a bearing's slip in a step that ends with loose sliders."""
     if load <= LOOSE * static and reached.last[1] > 0.0:
         reached.loose[k, 0] += slip - reached.loose[k, 1]
     reached.loose[k, 1] = slip
@@ -95,7 +95,7 @@ def met_with_slip(length: float, state: State, reached: Reached, k: int, t: floa
 
 @kernel
 def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int, t: float) -> None:
-    """Take up one step of all bearings."""
+    """Update the peaks by one step of all bearings."""
     for k in range(devices.records.shape[0]):
         p, state = devices.records[k], states[row, k]
         values, times = reached.bearing[k], reached.bearing_at[k]
@@ -121,7 +121,7 @@ def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int,
 
 @kernel
 def peak_energy(reached: Reached, energy: Floats, t: float) -> None:
-    """Take up the terms of the energy at one step."""
+    """Update the peaks by the terms of the energy at one step."""
     total = 0.0
     for term in range(1, energy.shape[0]):
         total += energy[term]
@@ -178,7 +178,7 @@ def sparse_row(start: Any, place: Any, value: Floats, row: int, of: Floats) -> f
 
 @inlined_by_llvm
 def peak_motion(shape: Shape, reached: Reached, ground: Ground, s: int, t: float) -> None:
-    """Take up accelerations of nodes and levels, drifts of storeys and of lines at one step."""
+    """Update the peaks by accelerations of nodes and levels, drifts of storeys and lines."""
     n_nodes, n_levels, n_storeys = shape.sizes[0], shape.sizes[1], shape.sizes[2]
     a, u = shape.a[s], shape.u[s]
     g_x = ground_acceleration(ground.acceleration, ground.dt, t, 0)
@@ -215,7 +215,7 @@ def peak_shear(
     s: int,
     t: float,
 ) -> None:
-    """Take up the base shear at one step: of bearings on the ground, and of other supports."""
+    """Update the peak base shear by one step: of bearings on the ground, and of other supports."""
     first, m = 2 * (shape.sizes[2] + shape.sizes[3]), beyond.shape[1]
     x, y = 0.0, 0.0
     for axis in range(2):
@@ -234,7 +234,7 @@ def peak_shear(
 def peak_storey_shear(
     shape: Shape, reached: Reached, states: Records, row: int, s: int, t: float
 ) -> None:
-    """Take up the shear of each storey at one step: of members, and of bearings through it."""
+    """Update the peak shear of each storey by one step: of members, and of bearings through it."""
     storeys, n_bearings = shape.crossed.shape
     u, first = shape.u[s], shape.u.shape[1] - 2 * storeys
     for k in range(storeys):
@@ -250,7 +250,7 @@ def peak_storey_shear(
 def peak_of_bearings(
     devices: Devices, reached: Reached, states: Records, out: Output, first: int, last: int
 ) -> None:
-    """Take up rows first <= k < last of the output: bearings and energy."""
+    """Update the peaks by rows first <= k < last of the output: bearings and energy."""
     for row in range(first, last):
         t = out.time[row]
         peak_bearings(devices, reached, states, row, t)
@@ -270,7 +270,7 @@ def peak_of_structure(
     first: int,
     last: int,
 ) -> None:
-    """Take up rows first <= k < last of the output: what the structure above does."""
+    """Update the peaks by rows first <= k < last of the output: the structure above."""
     row = first
     while row < last:
         count = min(AT_ONCE, last - row)

@@ -1,4 +1,4 @@
-"""Formulas of the quantities that are kept, compiled; what a bearing shows of them at a step."""
+"""Formulas of the recorded quantities, compiled; those of a bearing at a step."""
 
 from __future__ import annotations
 

@@ -1,15 +1,15 @@
 """Kernels of the tangent of many bearings under a diaphragm, in two blocks.
 
 The tangent is [[V, B], [D, H]]: H of the few coordinates that many bearings share (a diaphragm's),
-V of all others. As bearings slide and turn, their vertical and rotational stiffness stays what it
-is while they are pressed: what changes from step to step is B, D and H. With V factorised,
-V^-1 B and H - D V^-1 B are a few substitutions, where a tangent of all coordinates is a
+V of all others. As bearings slide and rotate, their vertical and rotational stiffness stays
+constant while they are pressed: from step to step only B, D and H change. With V factorised, V^-1 B
+and H - D V^-1 B are a few substitutions, whereas a tangent of all coordinates needs a
 factorisation.
 
-Matrices of so many coordinates have no room near the processor: a step takes as long as they take
-to be read. So what they make of a vector is carried along, where it follows from what is known:
-what the structure makes of Newton's correction from the residual that it was to take away, and
-what mass, damping and stiffness make of motions from what they make of the step.
+Matrices of this size do not fit into the processor's cache: the time of a step is that of reading
+them. So their products with vectors are updated, if known terms give them: the structure's product
+with Newton's correction follows from the residual that it had to remove, and the products of mass,
+damping and stiffness with motions follow from those with the step.
 """
 
 from __future__ import annotations
@@ -152,10 +152,10 @@ def linear_part_of_correction(
     scratch: Floats,
     flow: Floats,
 ) -> None:
-    """Take from `flow` (n_b,) what the bearings' share of the tangent in use makes of `x`.
+    """Subtract the product of the bearings' share of the tangent in use and `x` from `flow` (n_b,).
 
-    `latest` and `before` (n, 12, 12) are the bearings' tangents that the shared blocks, and V, were
-    made of. With ``flow = T x`` it becomes what the structure alone makes of `x`.
+    `latest` and `before` (n, 12, 12) are the bearings' tangents in the shared blocks, and in V.
+    From ``flow = T x`` it leaves the product of the structure alone and `x`.
     """
     inner, outer, on_v, on_h = scratch[0], scratch[1], scratch[2], scratch[3]
     for k in range(start.shape[0]):
@@ -189,11 +189,12 @@ def with_secants(
     x: Floats,
     flow: Floats,
 ) -> None:
-    """Improve Newton's correction `x` by what those before it left over: Broyden's method.
+    """Improve Newton's correction `x` by the residuals of those before it: Broyden's method.
 
     Kelley 1995, Iterative Methods for Linear and Nonlinear Equations, algorithm brsol. Its secants
-    serve as long as the tangent does. Shapes: weights (n_b,), taken and following (m, n_b), linear
-    (m, n_s), sizes (m,), x (n_b,), flow (n_s,): what the structure makes of `x`, or of no size.
+    are valid as long as the tangent is. Shapes: weights (n_b,), taken and following (m, n_b),
+    linear (m, n_s), sizes (m,), x (n_b,), flow (n_s,): the structure's product with `x`, or of size
+    zero.
     """
     for j in range(count):
         along = 0.0
@@ -241,9 +242,9 @@ def keep_secant(
 
 @kernel
 def goes_on_missing(weights: Floats, missed: Floats) -> bool:
-    """Return whether guesses miss by what they missed by before, rather than by nothing.
+    """Return True if the errors of guesses repeat, rather than vanish.
 
-    Rows of `missed` (3, n_b): by what the guesses of the last two steps fell short.
+    Rows of `missed` (3, n_b): errors of the guesses of the last two steps.
     """
     before, change = 0.0, 0.0
     for a in range(weights.shape[0]):
@@ -265,7 +266,7 @@ def carry_products(
     flows: Floats,
     held: Floats,
 ) -> None:
-    """Carry what mass, damping and stiffness (n_b, n_b) make of the motion over a step.
+    """Update the products of mass, damping and stiffness (n_b, n_b) with the motion over a step.
 
     The acceleration after it is ``rate (step / dt - v) - rest a`` (`rates_after`). Rows of `flows`
     (6, n_b): mass by velocity and acceleration, damping by them, damping by the mean velocity, and

@@ -1,4 +1,4 @@
-"""Kernels of the error estimate: what a step adds to the error of the bearings' histories."""
+"""Kernels of the error estimate: error of a step in the bearings' histories."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lir_element.kernels.levels import bearing_defect
 from lir_element.kernels.sampling import ground_acceleration
 
 _BEND = 0.9  # rad a step, beyond which the laws do not see to how a path bends
-_MEMORY = 0.2  # s, over which what rings is averaged
+_MEMORY = 0.2  # s, averaging time of ringing
 _MOST_LATE = 2.0  # of the friction force: it has turned round
 _APART = 8  # steps, of which a run with a fixed step looks at the last two: they cost it 1 to 2 %
 
@@ -39,7 +39,7 @@ def opening(model: ReducedModel, k: int, axis: int, b: Floats) -> float:
 def rate(model: ReducedModel, run: IntegrationState, k: int, axis: int) -> float:
     """Return the acceleration of bearing `k`'s `opening` along an axis about the step's start.
 
-    From displacements, which are free of what rings from step to step.
+    From displacements, which are free of ringing from step to step.
     """
     clock = run.clock[0]
     change = opening(model, k, axis, run.step) / clock.dt - run.moved[k, axis]
@@ -50,7 +50,7 @@ def rate(model: ReducedModel, run: IntegrationState, k: int, axis: int) -> float
 def lifting(model: ReducedModel, run: IntegrationState, ground: Ground, k: int) -> float:
     """Return the vertical acceleration of bearing `k`'s node j to i about the start of the step.
 
-    Total, where node i is fixed, so that it is smooth in free flight.
+    Total acceleration if node i is fixed, so that it is smooth in free flight.
     """
     found = rate(model, run, k, 2)
     if model.start[k, 2] == model.start[k, 3]:
@@ -85,10 +85,10 @@ def driven(run: IntegrationState, ground: Ground, axis: int) -> tuple[float, flo
 def ringing(
     model: ReducedModel, run: IntegrationState, settings: IntegratorSettings, ground: Ground
 ) -> float:
-    """Return 12 times how far what rings at the bearings gets out of phase in a step's length [m].
+    """Return 12 times the phase error of ringing at the bearings in a step's length [m].
 
-    From accelerations beside the bearings' forces, by which alone a mass without a structure moves;
-    not more than 12 times twice the displacement that rings.
+    From accelerations without the bearings' forces, the only ones on a mass without a structure; at
+    most 12 times twice the displacement of the ringing.
     """
     clock = run.clock[0]
     run.swing[0], run.swing[1] = 0.0, 0.0
@@ -122,18 +122,18 @@ def bend(run: IntegrationState, k: int, axis: int) -> float:
 
 @inlined_before_typing
 def turned(a_1: float, a_2: float, b_1: float, b_2: float) -> float:
-    """Return the angle from (a_1, a_2) to (b_1, b_2), zero where one of them is none."""
+    """Return the angle from (a_1, a_2) to (b_1, b_2), zero if one of them is zero."""
     return math.atan2(a_1 * b_2 - a_2 * b_1, a_1 * b_1 + a_2 * b_2)
 
 
 @kernel
 def lagging(model: ReducedModel, run: IntegrationState, k: int) -> float:
-    """Return the force by which the friction of bearing `k` lags behind its law.
+    """Return the lag of bearing `k`'s friction force behind its law.
 
-    Implicit steps are half a step late, an error of first order: half of what the dampers of the
-    rims change by, and half of what friction changes by, in so far as its sliding slips, as it
-    turns more or less than the path (what the path bends is seen to), and as its size grows by the
-    Bouc-Wen law.
+    Implicit steps are half a step late, an error of first order: half of the change of the rims'
+    damper forces, and half of the change of friction, as far as its sliding slips, as it rotates
+    more or less than the path (the bend of the path itself is included elsewhere), and as its size
+    grows by the Bouc-Wen law.
     """
     p, old, new = model.props[k], run.old[k], run.new[k]
     total = 0.0
@@ -169,14 +169,14 @@ def estimated_error(
     settings: IntegratorSettings,
     ground: Ground,
 ) -> float:
-    """Return the error of the bearings' displacements that such steps make [m].
+    """Return the error of the bearings' displacements with steps of this size [m].
 
     The trapezoidal rule integrates each bearing's force with an error of a twelfth of its second
-    difference, and what is late counts besides. A lasting error of a force is a displacement of the
-    pendulum, that of a step below ``error_event`` an impulse. What rings in the structure gets out
-    of phase; it counts over ``error_time``. Schemes that damp have more error (docs/theory.md, 5).
+    difference, and the lag counts besides. A lasting error of a force is a displacement of the
+    pendulum, that of a step below ``error_event`` an impulse. Ringing of the structure gets out of
+    phase; it counts over ``error_time``. Schemes that damp have more error (docs/theory.md, 5).
     Forces that are linear in the step, as the ground's, have none. Off the ground a bearing has no
-    force, and the change of its vertical acceleration says how it will land.
+    force, and the change of its vertical acceleration gives the error at landing.
     """
     clock = run.clock[0]
     damps = settings.gamma - 0.5
@@ -210,10 +210,10 @@ def is_rough(
     settings: IntegratorSettings,
     ground: Ground,
 ) -> bool:
-    """Return whether the step deserves to be halved, though it converged.
+    """Return True if the step must be halved, though it converged.
 
-    Either its estimated error is too large, or contacts that open or close in it make or lose
-    more energy than a share of what the run has moved so far.
+    Either its estimated error is too large, or contacts that open or close in it gain or lose more
+    than a share of the run's energy so far.
     """
     defect = 0.0
     for k in range(run.old.shape[0]):

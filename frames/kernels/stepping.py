@@ -52,13 +52,13 @@ _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)
 _SINGULAR = int(RunStatus.SINGULAR)
 _SHORTER = 0.4  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
-_TRIES = 6  # of a step: the last one, 0.4^5 or 1 % of it, is taken as it is (a choice)
+_TRIES = 6  # of a step: the last one, 0.4^5 or 1 % of it, is accepted (a choice)
 _PATIENCE = 3  # tries: then a residual that rises a little does, past a corner of a law (a choice)
 _RISE = 2.0  # of the residual that is little (a choice)
 _RETRIED = 0.8  # of a kept tangent's fall of the residual, a step without: so it is tried again
-_GUESS, _REST, _BACK, _CORRECTED = range(4)  # what Newton's method looks at
-_KEPT, _SHARED, _WHOLE = range(3)  # what of the tangent is renewed
-_TAKE, _SHORTEN, _LEAVE = range(3)  # what is done with a corrected step
+_GUESS, _REST, _BACK, _CORRECTED = range(4)  # vectors of Newton's method
+_KEPT, _SHARED, _WHOLE = range(3)  # renewed part of the tangent
+_TAKE, _SHORTEN, _LEAVE = range(3)  # treatment of a corrected step
 _GRAVITY_WORTH = 3.0  # iterations that save a tangent of all coordinates under permanent loads
 
 
@@ -68,7 +68,7 @@ def bearing_forces(
 ) -> int:
     """Run all bearings at `b`; set `run.force`. Returns a status code (limits included).
 
-    Velocities matter to a bearing in static steps alone, where they are zero: `run.v`.
+    Velocities affect a bearing in static steps alone, in which they are zero: `run.v`.
     """
     n_b = b.shape[0]
     time = run.clock[0].time + run.clock[0].dt
@@ -154,8 +154,8 @@ def set_residual(
 ) -> float:
     """Set displacement, bearing forces and residual of the trial ``b + step``; return its size.
 
-    residual = rhs - linear step - share force; infinite where bearings or nonlinear parts of the
-    structure have no state. Of many bearings `run.linear_trial` is linear step.
+    residual = rhs - linear step - share force; infinite if bearings or nonlinear parts of the
+    structure have no state. With many bearings `run.linear_trial` is linear step.
     """
     n_b = step.shape[0]
     for a in range(n_b):
@@ -182,8 +182,8 @@ def set_residual(
 def solve_tangent(model: ReducedModel, run: IntegrationState, share: float, x: Floats) -> None:
     """Solve for the right-hand side `x` (n_b,) in place, with the tangent of many bearings.
 
-    Of `run.linear_change`, which holds the right-hand side too, is left what belongs to the linear
-    structure.
+    `run.linear_change`, which contains the right-hand side too, becomes the linear structure's
+    part.
     """
     substitute_blocks(
         run.tangent,
@@ -239,12 +239,12 @@ def predict(
     linear: Floats,
     share: float,
 ) -> None:
-    """Set a guess of ``run.step`` that takes no state determination.
+    """Set a guess of ``run.step`` without a state determination.
 
-    One iteration with the kept tangent, as if displacements and forces of the bearings went on as
-    in the last steps, quadratically after three equal ones: what is linear in a bearing is met,
-    however it rings, and the horizontal motion is that of a mass under a known force. Where the
-    last guess fell short as the one before it did, this one counts on it.
+    One iteration with the kept tangent, as if displacements and forces of the bearings continued as
+    in the last steps, quadratically after three equal ones. It is exact for linear bearings, with
+    any ringing, and the horizontal motion is that of a mass under a known force. If the errors of
+    the last two guesses agree, this one is corrected by them.
     """
     clock = run.clock[0]
     n_b = run.step.shape[0]
@@ -290,9 +290,9 @@ def renew_tangent(
     share: float,
     whole: bool,
 ) -> bool:
-    """Set and factorise the tangent at the last trial; returns False where it is singular.
+    """Set and factorise the tangent at the last trial; returns False if it is singular.
 
-    Unless `whole`, only what belongs to the coordinates that many bearings share is renewed.
+    Unless `whole`, only the part of the coordinates that many bearings share is renewed.
     """
     n_b = run.step.shape[0]
     if model.shared.shape[0] > 0:
@@ -355,11 +355,10 @@ def needed_tangent(
     worth: float,
     shared_worth: float,
 ) -> int:
-    """Return what of the tangent to renew after a residual fell from `size` to `new`.
+    """Return the part of the tangent to renew after a residual fell from `size` to `new`.
 
-    It is kept while it serves: while it would take less than `worth` further iterations; first,
-    where bearings share coordinates, what belongs to these alone is renewed, from `shared_worth`
-    iterations on.
+    It is kept while it needs fewer than `worth` further iterations; first, if bearings share
+    coordinates, their part alone is renewed, from `shared_worth` iterations on.
     """
     fall = new / size
     if new * fall**shared_worth <= tolerance:
@@ -382,9 +381,9 @@ def newton(
 ) -> int:
     """Find ``run.step`` with a residual below `tolerance`; returns a status code.
 
-    `run.step` holds the first guess. The tangent is kept from step to step and from iteration to
-    iteration while it serves (`needed_tangent`), improved by secants. Once parts have yielded it is
-    renewed at the guess where, by what it last did there, it would have to be later in the step.
+    `run.step` has the first guess. The tangent is kept from step to step and from iteration to
+    iteration while it is good enough (`needed_tangent`), improved by secants. Once parts have
+    yielded it is renewed at the guess if the last step suggests that it must be renewed anyway.
     """
     clock = run.clock[0]
     eager = False
@@ -394,7 +393,7 @@ def newton(
     less = _SHARED if model.shared.shape[0] > 0 else _WHOLE
     size, factor = math.inf, 1.0
     at, tries, passes = _GUESS, 0, 0
-    while True:  # one place where the bearings are run: they are its code
+    while True:  # one call of the bearings: it contains all their code
         set_trial(run, at == _CORRECTED, factor)
         trial = run.g_b if at == _CORRECTED else run.step
         new = set_residual(model, run, contacts, parts, linear, trial, share)
@@ -409,7 +408,7 @@ def newton(
             if found == _SHORTEN:
                 factor *= _SHORTER
                 continue
-            if found == _LEAVE:  # back to where it was
+            if found == _LEAVE:  # back to its start
                 need = less if need == _KEPT else _WHOLE
                 at = _BACK
                 continue
@@ -464,7 +463,7 @@ def solve_gravity(
     tolerance: float,
     max_iterations: int,
 ) -> int:
-    """Bring the frame into equilibrium under its permanent loads; returns a status code.
+    """Find the equilibrium of the frame under its permanent loads; returns a status code.
 
     `run.b` holds the first guess; `run.step` is used. On success the state is committed.
     """
@@ -497,7 +496,7 @@ def solve_gravity(
         run.e[a] = model.load_e[a] / model.omega2[a]
     commit_bearings(model, run, contacts)
     run.store_at_rest[0] = 0.0
-    for k in range(run.old.shape[0]):  # works count from here; what friction stores is a state
+    for k in range(run.old.shape[0]):  # works count from here; energy stored by friction is a state
         run.store_at_rest[0] += run.old[k].work_elastic
         for side in range(2):
             run.old[k].work_friction[side] = 0.0

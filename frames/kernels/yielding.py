@@ -1,9 +1,9 @@
 """Kernels of the equilibrium of nonlinear parts in a linear frame, and of its tangent.
 
 The force of a part is ``k0 d + g(d)``; k0 is in the frame's stiffness. Within a step of the time
-integration the deformations are linear in the step of b and in the parts' flows
-(docs/theory.md, 5): only parts that flow, the loose ones, need a solution, of as many unknowns as
-have a flow, and what stays elastic costs its deformation alone.
+integration the deformations are linear in the step of b and in the parts' flows (docs/theory.md,
+5). Only parts that flow, the loose ones, need a solution, of as many unknowns as have a flow; an
+elastic part costs its deformation alone.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 _MOST = 40  # iterations over the loose parts
-_HELD = 1e-25  # m/N: flexibility of a deformation that supports hold, or round-off of it
+_HELD = 1e-25  # m/N: flexibility of a deformation held by supports, or its round-off
 _ROUND_OFF = 8.0 * 2.0**-52  # of a deformation: it is not known better (a choice)
-_CLOSER = 1e-3  # of the tolerance of the whole: what parts may lack
+_CLOSER = 1e-3  # of the tolerance of the whole: tolerance of the parts
 _TRIES = 12  # of a step of Newton's method
 _WORTH = 2.0  # tries that new factors are worth
 _LESS = 0.7  # of the error before: then a step does
@@ -47,10 +47,10 @@ def begin_parts(
     parts: NonlinearElements,
     settings: IntegratorSettings,
 ) -> None:
-    """Set the deformations at the end of the step if b rests and nothing flows.
+    """Set the deformations at the end of the step if b and the flows are zero.
 
-    Needs ``run.h_e``, what the modes do then. What flowed in the last step is guessed to go on, as
-    b does in ``run.step``.
+    Needs ``run.h_e``, the modes' motion then. Flows of the last step are assumed to continue, as b
+    does in ``run.step``.
     """
     dt, before = run.clock[0].dt, run.clock[0].dt_before
     c_m, c_c, c_k = effective(settings, dt)
@@ -117,7 +117,7 @@ def add_flows(
 
 @inlined_by_llvm
 def try_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> float:
-    """Run the loose parts and return the size of what they lack; infinite without a state.
+    """Run the loose parts and return the size of their residual; infinite without a state.
 
     That is how far their deformations are from those that the frame has under their flows.
     """
@@ -165,7 +165,7 @@ def list_live(model: ReducedModel, run: IntegrationState, parts: NonlinearElemen
 
 @inlined_by_llvm
 def factorise_parts(run: IntegrationState, parts: NonlinearElements) -> bool:
-    """Factorise the matrix of the live flows; returns False where it is singular.
+    """Factorise the matrix of the live flows; returns False if it is singular.
 
     It is ``1 + give F``, F the deformations by flows: that of a step of Newton's method, its
     columns one after the other.
@@ -197,8 +197,8 @@ def set_newton_step(
 ) -> int:
     """Set Newton's step of the flows (`right`) and of the deformations (`way`).
 
-    With factors that are kept, where they may be and there are some of the same flows. Returns 1
-    then, 0 if they are new, and -1 if they are singular.
+    Uses kept factors, if allowed and if there are some of the same flows. Returns 1 then, 0 if they
+    are new, and -1 if they are singular.
     """
     kept = list_live(model, run, parts) and keep
     if not kept and not factorise_parts(run, parts):
@@ -227,7 +227,7 @@ def go_along(parts: NonlinearElements, share: float) -> None:
 
 @inlined_by_llvm
 def ascent(parts: NonlinearElements) -> float:
-    """Return the derivative of the potential along Newton's step; zero where it is smallest."""
+    """Return the derivative of the potential along Newton's step; zero at its minimum."""
     total = 0.0
     for n in range(parts.counts[0].active):
         i = parts.active[n]
@@ -239,20 +239,20 @@ def ascent(parts: NonlinearElements) -> float:
 
 @inlined_by_llvm
 def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
-    """Bring the loose parts into equilibrium with the frame; returns whether that succeeded.
+    """Find the equilibrium of the loose parts and the frame; returns True on success.
 
-    With flows guessed, ``d = linear - F guess``; wanted are those that the parts have at d. That
-    is where a potential is smallest, convex but for parts that soften (docs/theory.md, 5): a step
-    of Newton's method that goes too far is cut back to where the potential does not rise any more.
+    With guessed flows, ``d = linear - F guess``; wanted are the parts' flows at d. They minimise a
+    potential, convex but for parts that soften (docs/theory.md, 5): a step of Newton's method that
+    goes too far is cut back until the potential does not rise.
     """
     size, start, low, high, here, down, up = math.inf, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0
     steps, tries, kept, keep = 0, 0, False, True
-    while True:  # one place where the parts are run: they are its code
+    while True:  # one call of the parts: it contains all their code
         found = try_loose(model, run, parts)
         good = tries == 0
         if kept and tries > 0:
             good = found < math.inf
-            if not good:  # back to where it was, for a step of new factors
+            if not good:  # back to its start, for a step of new factors
                 go_along(parts, -1.0)
                 tries, keep = 0, False
                 continue
@@ -315,7 +315,7 @@ def start_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElem
 
 @inlined_by_llvm
 def forget_guess(parts: NonlinearElements) -> None:
-    """Guess that nothing flows, whatever b does."""
+    """Set the guessed flows to zero, for any b."""
     parts.counts[0].gains = 0
     for n in range(parts.counts[0].active):
         parts.predicted[parts.active[n]] = 0.0
@@ -338,7 +338,7 @@ def settle_parts(
             guessed = start_loose(model, run, parts)
             begin = False
         if parts.counts[0].active > 0 and not newton_loose(model, run, parts):
-            forget_guess(parts)  # no guess for what is tried next
+            forget_guess(parts)  # no guess for the next trial
             if not guessed:
                 return False
             begin = True
@@ -355,7 +355,7 @@ def settle_parts(
                     activate(parts, k)
                     more = True
         if not more:
-            for n in range(parts.counts[0].active):  # what the frame has: so no errors add up
+            for n in range(parts.counts[0].active):  # the frame's own values: so no errors add up
                 i = parts.active[n]
                 parts.d[i], parts.predicted[i] = parts.framed[i], parts.flow[i]
             set_changes(parts)
@@ -366,7 +366,7 @@ def settle_parts(
 
 @inlined_by_llvm
 def add_part_forces(run: IntegrationState, parts: NonlinearElements, out: Floats) -> None:
-    """Take the change of the forces g from a residual of b."""
+    """Subtract the change of the forces g from a residual of b."""
     follow = parts.follow[run.clock[0].halvings]
     for n in range(parts.counts[0].active):
         i = parts.active[n]
@@ -386,7 +386,7 @@ def has_yielded(parts: NonlinearElements) -> bool:
 def foresee_part_forces(
     run: IntegrationState, parts: NonlinearElements, ratio: float, out: Floats
 ) -> None:
-    """Take from a residual of b the forces g of loose parts, if these go on as in the last step."""
+    """Subtract the extrapolated forces g of loose parts from a residual of b."""
     follow = parts.follow[run.clock[0].halvings]
     for n in range(parts.counts[0].active):
         i = parts.active[n]
@@ -398,7 +398,7 @@ def foresee_part_forces(
 
 @inlined_by_llvm
 def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
-    """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
+    """Add the share of the loose parts to ``run.tangent``; returns False if they are singular."""
     parts.counts[0].gains = 0
     if parts.counts[0].active == 0:
         return True
@@ -436,7 +436,7 @@ def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: Nonlinea
 
 @inlined_by_llvm
 def part_load_on_modes(parts: NonlinearElements, out: Floats) -> None:
-    """Take the change of the forces g from loads on the modes."""
+    """Subtract the change of the forces g from loads on the modes."""
     for n in range(parts.counts[0].active):
         i = parts.active[n]
         value = parts.scheme[0].share * parts.change[i]

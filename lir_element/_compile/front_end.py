@@ -1,10 +1,9 @@
-"""numba's front end while it compiles kernels: what it does over and over is done once.
+"""Faster front end of numba for kernels: repeated work is done once.
 
-The type of ``x + y`` for two floats is looked for in all that numba knows of sums, thousands of
-times; a kernel that is put into another one takes a copy of all its variables along with each of
-its blocks. What is found is the same. This goes by numba's inside: it is imported only with a
-version that is known to have it (`jit.py`), and what it changes there is as it was once a kernel is
-compiled.
+numba searches the type of ``x + y`` for two floats in all its sums, thousands of times; a kernel
+inlined into another one copies all its variables along with each of its blocks. The results are the
+same. This depends on numba's inside: it is imported only with a supported version (`jit.py`), and
+its changes are undone once a kernel is compiled.
 """
 
 from __future__ import annotations
@@ -73,7 +72,7 @@ class ShortPasses(PassManager):  # type: ignore[misc]  # numba has no types
 
 
 def _processed(self: Any, emit_dels: bool = False, extend_lifetimes: bool = False) -> None:
-    # Blocks in order, and what lives how long if somebody asks: no kernel is a generator.
+    # Blocks in order, and lifetimes on request: no kernel is a generator.
     self.func_ir.blocks = transforms.canonicalize_cfg(self.func_ir.blocks)
     self.func_ir.variable_lifetime = postproc.VariableLifetime(self.func_ir.blocks)
     self.func_ir.generator_info = None
@@ -120,7 +119,7 @@ def _variables(self: Any, value: Any) -> list[Any]:
 
 @contextmanager
 def gc_paused() -> Generator[None]:
-    """Keep Python from looking for garbage in what is still needed."""
+    """Pause Python's garbage collection over data that are still needed."""
     looks = gc.isenabled()
     gc.disable()
     try:

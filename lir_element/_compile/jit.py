@@ -22,18 +22,18 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound="Callable[..., object]")
 
 OWN = Sources(Path(__file__).parents[1])
-"""What the kernels of this package depend on."""
+"""Sources of the kernels of this package."""
 
 
 WITH_PARTS = numba.__version__.startswith("0.68.")
-"""Whether this numba is one whose inside is known: else kernels take twice as long to compile."""
+"""True if this version of numba is supported: else kernels take twice as long to compile."""
 
 if WITH_PARTS:
     from lir_element._compile.linking import KernelDispatcher, rebuilt_part
 
 
 class KernelDecorator(Protocol):
-    """A decorator that keeps the signature of what it compiles."""
+    """A decorator that keeps the signature of the compiled function."""
 
     def __call__(self, function: F) -> F:
         """Return the compiled `function`."""
@@ -88,11 +88,11 @@ inlined_by_llvm = kernels_of(OWN, inline=True)
 """The same for kernels that become part of their callers (see `kernels_of`)."""
 
 inlined_before_typing: KernelDecorator = numba.njit(inline="always")
-"""For kernels that are part of one other, or stand for an expression: put there before typing.
+"""For kernels inlined in one other, or used as an expression: inserted before typing.
 
-Nothing is compiled for themselves: a chain of `inlined_by_llvm` ones is optimised and made machine
-code at each of its links, all that is below included. They may give back what compiled functions
-cannot return: a bundle of records.
+They are not compiled by themselves: a chain of `inlined_by_llvm` ones is optimised and made machine
+code at each of its links, with all its callees. They may return values that compiled functions
+cannot: a bundle of records.
 """
 
 

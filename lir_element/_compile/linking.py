@@ -1,10 +1,10 @@
-"""Kernels that other kernels call: kept as code to be linked, machine code only of what is called.
+"""Kernels as linkable code: machine code only of kernels that Python or C calls.
 
-numba optimises each function and makes it machine code, and does so again inside of each that calls
-it. Here a kernel that a kernel calls stays a part: as it was lowered, with no wrapper and no
-address, until one that Python or C calls takes it in and is optimised as one piece. No optimisation
-changes the order of sums, so that bits are the same. This goes by numba's inside: it is imported
-only with a version that is known to have it (`jit.py`).
+numba optimises each function and makes it machine code, and does so again inside of each caller.
+Here a kernel with a kernel as caller stays a part: as it was lowered, with no wrapper and no
+address, until one that Python or C calls includes it and is optimised as one piece. No optimisation
+changes the order of sums, so that bits are the same. This depends on numba's inside: it is imported
+only with a supported version (`jit.py`).
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ MANY_ARGUMENTS = 100
 
 
 class PartLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
-    """The code of one kernel as it was lowered, and the libraries of what it calls."""
+    """The code of one kernel as it was lowered, and the libraries of its callees."""
 
     kept: tuple[str, bytes] | None = None
     """Name and digest of the file that it is kept in."""
 
     def add_ir_module(self, ir_module: Any) -> None:
-        """Take code in; a long function with few arguments is called rather than copied."""
+        """Add code; a long function with few arguments is called rather than copied."""
         for function in ir_module.functions:
             length = sum(len(block.instructions) for block in function.blocks)
             few = len(function.args) < MANY_ARGUMENTS
@@ -51,7 +51,7 @@ class PartLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
         super().add_ir_module(ir_module)
 
     def add_llvm_module(self, ll_module: Any) -> None:
-        """Take code in as it is."""
+        """Add code unchanged."""
         ll_module.data_layout = self._codegen._data_layout
         self._final_module.link_in(ll_module)
 
@@ -64,7 +64,7 @@ class PartLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
         self._finalized = True
 
     def _finalize_dynamic_globals(self) -> None:
-        # Addresses that only this process knows; those of kernels are named and never read.
+        # Addresses of this process alone; those of kernels are named and never read.
         super()._finalize_dynamic_globals()
         names: list[str] = self._dynamic_globals  # type: ignore[has-type]
         self._dynamic_globals = [n for n in names if int(n.split(".")[3], 16) not in _kernels]
@@ -131,7 +131,7 @@ class _WholeLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
         self._final_module.link_in(ll_module)
 
     def finalize(self) -> None:
-        """Take in all below, each once, and make machine code of it."""
+        """Add all parts below, each once, and make machine code of them."""
         _take_in(self, self._final_module)
         self._linking_libraries.clear()
         super().finalize()
@@ -142,7 +142,7 @@ class _WholeLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
         passes.run(self._final_module, builder)
 
     def _finalize_specific(self) -> None:
-        # How addresses in loops are counted on takes a third of the time, and gives no speed.
+        # LLVM's loop strength reduction takes a third of the time, and gives no speed.
         llvm.set_option("", "-disable-lsr=1")
         try:
             super()._finalize_specific()
@@ -166,7 +166,7 @@ _FLAGS = hash("flags of kernels")
 
 
 class _Address:
-    """What stands for the address of a part, which has none."""
+    """Substitute for the address of a part, which has none."""
 
 
 class _KernelCompiler(_FunctionCompiler):  # type: ignore[misc]  # numba has no types
@@ -207,7 +207,7 @@ class _KernelCompiler(_FunctionCompiler):  # type: ignore[misc]  # numba has no 
 
 
 class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no types
-    """A kernel: whole where Python calls it, a part where kernels do."""
+    """A kernel: whole if Python calls it, a part if kernels do."""
 
     _asked_by_kernel = False
 
@@ -249,7 +249,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
                 self._compiler.as_part = self._cache.as_part = before
 
     def add_overload(self, cres: Any) -> None:
-        """Take note of what was compiled; Python sees it only if it is whole."""
+        """Register a compilation; Python sees it only if it is whole."""
         if isinstance(cres.library, PartLibrary):
             self.overloads[tuple(cres.signature.args)] = cres
         else:
@@ -259,7 +259,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
 def rebuilt_part(
     context: Any, reduced: tuple[Any, ...], part_of: Callable[[str, bytes], Any]
 ) -> Any:
-    """Return a part from what was kept of it."""
+    """Return a part from its kept content."""
     name, code, below, fndesc, environment, signature = reduced
     library = _library(context, name, code)
     for known_by, digest, *rest in below:

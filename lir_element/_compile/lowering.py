@@ -1,10 +1,10 @@
 """From typed kernels to LLVM: bundles and arrays by their parts, so that little is to be undone.
 
-numba hands structures on as wholes: to read one array of a bundle it loads all of the bundle, to
-read a number of an array it writes the array down first. LLVM takes most of its time to undo that.
-Here a bundle or array is the list of its parts until something needs it in one piece, and a number
-of an array is read and written where it is. What is computed is the same, in the same order. This
-goes by numba's inside: it is imported only with a version that is known to have it (`jit.py`).
+numba passes structures as wholes: to read one array of a bundle it loads all of the bundle, to read
+a number of an array it writes the array down first. LLVM spends most of its time on undoing that.
+Here a bundle or array is the list of its parts until it is needed in one piece, and a number of an
+array is read and written in place. The results are the same, in the same order. This depends on
+numba's inside: it is imported only with a supported version (`jit.py`).
 """
 
 from __future__ import annotations
@@ -64,9 +64,9 @@ class Parts:
     Parameters
     ----------
     kind : llvmlite.ir.Type
-        Of the structure.
+        Type of the structure.
     parts : sequence
-        Values, in order; None where there is none yet.
+        Values, in order; None if there is none yet.
     """
 
     def __init__(self, kind: Any, parts: Sequence[Any]) -> None:
@@ -74,7 +74,7 @@ class Parts:
         self.parts = tuple(parts)
 
     def whole(self, builder: Any) -> Any:
-        """Return it in one piece, put together where `builder` stands."""
+        """Return it in one piece, built at the place of `builder`."""
         value = llvm.Constant(self.type, llvm.Undefined)
         for place, part in enumerate(self.parts):
             if part is not None:
@@ -146,7 +146,7 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
         self._ends = _ends_of_loops(self.blocks) if short else set()
 
     def _argument(self, name: str) -> int | None:
-        # The place of the argument that a bundle is, under whatever names; None if it is another.
+        # The argument that is a bundle, under any of its names; None if it is another.
         if name not in self._arguments:
             self._arguments[name] = None  # should names go round in a circle
             value = self._once.get(name)
@@ -184,7 +184,7 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
             self.builder.block.terminator.set_metadata("llvm.loop", self._kept_small())
 
     def _kept_small(self) -> Any:
-        # What makes LLVM neither unroll a loop of unknown length nor make vectors of it.
+        # Metadata against unrolling a loop of unknown length, and against vectors.
         no = [("llvm.loop.unroll.runtime.disable",), ("llvm.loop.vectorize.enable", False)]
         wishes = [
             self.module.add_metadata([llvm.MetaDataString(self.module, name), *map(_BIT, value)])
@@ -205,10 +205,10 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
             super().storevar(value, name, argidx)
             return
         self._alloca_var(name, self.typeof(name))
-        self.builder.store(value, self.getvar(name))  # what it held needs no counting
+        self.builder.store(value, self.getvar(name))  # its old value needs no reference count
 
     def delvar(self, name: str) -> None:
-        """Forget a variable: there is nothing to count, and nobody reads it again."""
+        """Drop a variable: it has no reference count and no further reader."""
         if not self._plain:
             super().delvar(name)
 
@@ -242,7 +242,7 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
         return super().lower_expr(resty, expr)
 
     def _nested(self, kind: Any, expr: Any) -> Any:
-        # An array in a record: where it is, of a shape that is known.
+        # An array in a record: its place; its shape is known.
         nested, context = kind.typeof(expr.attr), self.context
         data = get_record_member(
             self.builder,
@@ -275,7 +275,7 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
         return self.builder.load(self.builder.gep(self.getvar(name), [zero, at], inbounds=True))
 
     def _indexed(self, name: str, index: str, *, full: bool) -> bool:
-        # Whether an array is read or written at whole numbers: all of them, if it is one number.
+        # True if an array is read or written at whole numbers: all of them, if it is one number.
         kind = self.typeof(name)
         if not self._plain or not isinstance(kind, types.Array) or kind.layout != "C":
             return False
@@ -287,7 +287,7 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
         return known and within and not self.context.enable_boundscheck
 
     def _place(self, name: str, index: str) -> tuple[Any, Any, list[Any]]:
-        # Where an element is, or the first one of a view; shapes that are left.
+        # Place of an element, or of the first one of a view; remaining shapes.
         builder, kind, by = self.builder, self.typeof(name), self.typeof(index)
         array, given = self.loadvar(name), self.loadvar(index)
         several = isinstance(by, BaseTuple)
@@ -369,7 +369,7 @@ class KernelLowering(NativeLowering):  # type: ignore[misc]  # numba has no type
 
     @property
     def lowering_class(self) -> Any:
-        """What makes the code."""
+        """Class that makes the code."""
         return KernelLower
 
     def run_pass(self, state: Any) -> bool:

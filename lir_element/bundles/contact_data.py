@@ -25,8 +25,8 @@ WORDS = ("bodies_old", "bodies_new", "touch_old", "touch_new")
 class Contacts(NamedTuple):
     """Bearings whose sliders are bodies: constants, committed (old) and trial (new) state, scratch.
 
-    `row` says for each bearing of a model where it stands in the other arrays, -1 for bearings
-    at another level. Unused contact points at the end of a row have no share.
+    `row` is the row of each bearing of a model in the other arrays, -1 for bearings at another
+    level. Unused contact points at the end of a row have no share.
     """
 
     row: npt.NDArray[np.int64]  # (n_bearings,)
@@ -120,7 +120,7 @@ def contact_arrays(
 
 
 def reset(contacts: Contacts, bearings: Sequence[LIRBearing]) -> None:
-    """Bring the chosen bearings, in order, back to the undeformed and unloaded state."""
+    """Reset the chosen bearings, in order, to the undeformed and unloaded state."""
     contacts.bodies_old[:] = initial_bodies(len(bearings))
     contacts.search_old[:] = np.zeros(1, dtype=SEARCH)
     for k, bearing in enumerate(bearings):

@@ -70,7 +70,7 @@ class RigidRun(NamedTuple):
     points: Records  # (m,)
     mass: Floats  # (3, 3)
     inertia: Floats  # (3, 3)
-    free: Words  # (18,) 1 where the degree of freedom is free
+    free: Words  # (18,) 1 if the degree of freedom is free
     driven: bool
     bodies: Records  # (4,)
     touches: Records  # (4, m)
@@ -90,7 +90,7 @@ class RigidRun(NamedTuple):
 
 
 class RigidInput(NamedTuple):
-    """What a run is given, and where it writes."""
+    """Input of a run, and its output arrays."""
 
     motion: Floats  # (n, 3) ground acceleration
     motion_dt: float
@@ -165,7 +165,7 @@ def rigid_run(
 
 
 class RigidOutput(NamedTuple):
-    """What a run records, as records (n_out,)."""
+    """Records of a run (n_out,)."""
 
     states: Records
     bodies: Records
@@ -175,7 +175,7 @@ class RigidOutput(NamedTuple):
 def rigid_input(
     ground: tuple[Floats, float], times: Floats, drive: Floats, load: Floats
 ) -> tuple[RigidInput, RigidOutput]:
-    """Return what a run is given, and the records that it will write.
+    """Return the input of a run, and the records for its output.
 
     Shapes: ground (n, 3), times (n_out,), drive (n_out, 2), load (n_out, 6).
     """
@@ -230,7 +230,7 @@ def rigid_setup(
 
 
 class RigRun(NamedTuple):
-    """A bearing (records are arrays of one), its path, where it stands, and what it leaves."""
+    """A bearing (records are arrays of one), its path, its progress, and its output."""
 
     props: Records  # (1,)
     old: Records
@@ -248,7 +248,7 @@ class RigRun(NamedTuple):
     tangent: Floats  # (12, 12)
     states: Records  # (n,) STATE at the points
     velocities: Floats  # (n, 2)
-    bodies: Records  # (n,) BODIES, where the sliders are bodies
+    bodies: Records  # (n,) BODIES, if the sliders are bodies
     states_words: Words  # (n, words): the same memory
     bodies_words: Words
     reached: Words  # (2,) points reached, increments since

@@ -1,1 +1,1 @@
-"""Compiled kernels: pure functions on records and arrays; what all levels share."""
+"""Compiled kernels: pure functions on records and arrays; the common part of all levels."""

@@ -1,4 +1,4 @@
-"""Kernels of a bearing that has failed: nothing, or a flat stop, carries what stood on it.
+"""Kernels of a bearing that has failed: its load has no support, or a flat stop.
 
 The stop is a contact in vertical direction that never pulls, with friction of the same law as the
 surfaces' (docs/theory.md, section 3). Its force acts under node j; its moment is node i's.
@@ -25,7 +25,7 @@ _NOT_FINITE = int(RunStatus.NOT_FINITE)
 
 @kernel
 def carry_nothing(at: State) -> None:
-    """Set to zero what a bearing carried at its surfaces, its interface and its rims."""
+    """Set the forces of a bearing at its surfaces, its interface and its rims to zero."""
     for k in range(2):
         at.rim_force[k], at.rim_closure[k], at.rim_flow[k] = 0.0, 0.0, 0.0
         at.sliding_speed[k], at.axis_speed[k], at.slid[k] = 0.0, 0.0, 0.0
@@ -43,7 +43,7 @@ def carry_nothing(at: State) -> None:
 def give_up(at: State, code: int) -> None:
     """Make a committed state the last one of a bearing that fails by `code`.
 
-    It keeps the forces that it was in equilibrium with: what follows is its backup's.
+    It keeps the forces of its equilibrium: the rest is its backup's.
     """
     at.failed, at.failed_at = -code, at.time
     at.status = _OK
@@ -63,7 +63,7 @@ def backup_trial(
 ) -> int:
     """Determine the state of a failed bearing at displacements `u`, velocities `v` and `time`.
 
-    Returns a RunStatus code. What the record keeps of the sliders stays as it was.
+    Returns a RunStatus code. The sliders' part of the record stays unchanged.
     """
     if not (math.isfinite(time) and is_finite(u) and is_finite(v)):
         return _NOT_FINITE
@@ -109,7 +109,7 @@ def backup_trial(
 
 @kernel
 def arm_of(p: Props, u: Floats, axis: int) -> float:
-    """Return where node j is from node i along an axis."""
+    """Return the place of node j relative to node i along an axis [m]."""
     height = p.lever[0] + p.lever[1] - p.length if axis == 2 else 0.0
     return float(u[6 + axis] - u[axis] + height)
 

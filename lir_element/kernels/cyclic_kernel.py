@@ -59,11 +59,11 @@ def hold_actuator(run: RigRun, contacts: Contacts | None, time: float, load: flo
 
 @kernel
 def hold_by_load(run: RigRun, time: float, load: float) -> int:
-    """Find the state under `load` itself at the level 'pendulum'; return a status code.
+    """Find the state under `load` itself at level 'pendulum'; return a status code.
 
-    Where the interface slips away, the slip lowers the plate faster than it slides: held at a
-    height, the axial force falls to nothing; held by its load, the bearing slips on
-    (docs/theory.md, section 9).
+    If the interface slips away, the slip lowers the plate faster than it slides: held at a height,
+    the axial force falls to zero; held by its load, the bearing continues to slip (docs/theory.md,
+    section 9).
     """
     p, w, new = run.props[0], run.work[0], run.new[0]
     p.fixed_load = load
@@ -82,7 +82,7 @@ def accept(run: RigRun, contacts: Contacts | None) -> None:
 
 @kernel
 def begin_path(run: RigRun, contacts: Contacts | None) -> int:
-    """Put the axial load on a bearing at the centre of its path; return a status code."""
+    """Apply the axial load to a bearing at the centre of its path; return a status code."""
     load = run.loads[0]
     run.u[8] = -load / run.props[0].axial_stiffness
     code = hold_actuator(run, contacts, 0.0, load)
@@ -93,9 +93,9 @@ def begin_path(run: RigRun, contacts: Contacts | None) -> int:
 
 @kernel
 def follow_path(run: RigRun, contacts: Contacts | None, last: int, increments: int) -> int:
-    """Go on along the path until `last` points are reached, or `increments` were taken.
+    """Follow the path until `last` points are reached, or `increments` are used.
 
-    ``run.reached`` and ``run.clock`` tell where it stands, and the next call goes on from there;
+    ``run.reached`` and ``run.clock`` have the progress, and the next call continues from there;
     returns a status code.
     """
     reached, clock = run.reached, run.clock

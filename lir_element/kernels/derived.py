@@ -1,4 +1,4 @@
-"""Formulas of what results derive from a bearing's state, compiled."""
+"""Formulas of results derived from a bearing's state, compiled."""
 
 from __future__ import annotations
 

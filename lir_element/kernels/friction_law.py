@@ -1,8 +1,8 @@
-"""Kernels of the friction law: the coefficient over the sliding speed, and what follows from it.
+"""Kernels of the friction law: the coefficient over the sliding speed, and its derivatives.
 
-A law falls short of its coefficient at high speed by a drop, times the share of it that the speed
-leaves: ``exp(-alpha v)`` (3.1), or what the table of another law holds, a cubic between knots that
-lie evenly over ``x = v / (v + v_ref)`` (3.10). All that depends on the law is asked for here.
+A law reduces its coefficient at high speed by a drop, times its remaining share at the speed:
+``exp(-alpha v)`` (3.1), or the table of another law, a cubic between knots that are even over ``x =
+v / (v + v_ref)`` (3.10). All that depends on the law is here.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def tabulated(table: Floats, speed: float) -> tuple[float, float]:
 
 @kernel
 def left_of_drop(drop: float, rate: float, table: Floats, speed: float) -> tuple[float, float]:
-    """Return what a speed leaves of the friction's drop, and how that falls by the speed."""
+    """Return the remaining share of the friction's drop at a speed, and its fall with the speed."""
     if table[0] > 0.0:
         share, fall = tabulated(table, speed)
         return drop * share, drop * fall
@@ -55,8 +55,8 @@ def lowered(p: Props, k: int, speed: float) -> tuple[float, float]:
 def lowered_near(p: Props, w: Work, k: int) -> tuple[float, float]:
     """Return the same at the speed of a trial, ``w.speed[k]``.
 
-    The exponential is taken where a trial looks first; nearby a few terms of its series do. A table
-    costs less than it.
+    The exponential is computed at the first speed of a trial; near it a few terms of its series are
+    used. A table costs less.
     """
     if p.friction_table[k, 0] > 0.0:
         return lowered(p, k, w.speed[k])
@@ -114,7 +114,7 @@ def left_by_pressure(p: Props, load: float) -> float:
 
 @kernel
 def covered(before: float, after: float, radius: float) -> float:
-    """Return the share of a step in which a slider covers the middle of what it slides on.
+    """Return the share of a step in which a slider covers the middle of its surface.
 
     `before` and `after` are its distances from there; between them they change evenly.
     """
@@ -128,7 +128,7 @@ def covered(before: float, after: float, radius: float) -> float:
 
 @kernel
 def grown(part: float, lost: float, gain: float) -> float:
-    """Return a part of a temperature after a step, none where it has faded (11.5).
+    """Return a part of a temperature after a step, zero if it has faded (11.5).
 
     Numbers that fade on towards the smallest there are cost a processor a hundred times as much.
     """
@@ -138,11 +138,11 @@ def grown(part: float, lost: float, gain: float) -> float:
 
 @kernel
 def heat_up(p: Props, heat: Floats, old: State, new: State) -> None:
-    """Take the temperatures on over the step from `old` to `new`, whose works are summed.
+    """Advance the temperatures over the step from `old` to `new`, whose works are summed.
 
-    `heat` (3, parts) holds what the contacts have above their temperature at the start, part by
-    part: bottom surface, top surface, interface. What friction dissipates heats them evenly over
-    the step.
+    `heat` (3, parts) has the contacts' rise above their temperature at the start, part by part:
+    bottom surface, top surface, interface. The dissipation of friction heats them evenly over the
+    step.
     """
     dt = new.time - old.time
     if not dt > 0.0:

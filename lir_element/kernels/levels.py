@@ -1,7 +1,7 @@
-"""Kernels that hand a bearing to the level it is modelled at: trial, tangent, commit.
+"""Kernels that call the level of a bearing's model: trial, tangent, commit.
 
-`contacts` is None where all bearings are at the level 'pendulum' (the other level is then not even
-compiled); otherwise it says which bearings have contact points.
+`contacts` is None if all bearings are at the level 'pendulum' (the other level is then not even
+compiled); otherwise it lists the bearings with contact points.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def bodies_of(props: Records, contacts: Contacts, k: int, at: int) -> BodyStep:
 
 @kernel
 def begin_trials(contacts: Contacts | None) -> None:
-    """Begin the trials of a step, each of which sets out from what the last one found."""
+    """Begin the trials of a step, each of which starts from the result of the last one."""
     if contacts is None:
         return
     for at in range(contacts.search_new.shape[0]):
@@ -119,7 +119,7 @@ def bearing_commit(
 ) -> None:
     """Accept the trial state of bearing `k`; `heat` as in `heat_parts`.
 
-    A bearing that goes on after its failure has failed where a limit is exceeded.
+    A bearing with a backup fails if a limit is exceeded.
     """
     if new[k].failed != 0:
         backup_accumulate(props[k], old[k], new[k])
@@ -146,7 +146,7 @@ def bearing_commit(
 
 @kernel
 def leave_failed(props: Records, old: Records, old_words: Words, new_words: Words, k: int) -> None:
-    """Leave a bearing that was committed beyond a limit to its backup, if it has one."""
+    """Replace a bearing that was committed beyond a limit by its backup, if it has one."""
     if old[k].status != _OK and props[k].goes_on:
         give_up(old[k], old[k].status)
         copy_words(old_words[k], new_words[k])

@@ -81,7 +81,7 @@ def copy_words(source: Words, target: Words) -> None:
 
 @kernel
 def subtract_squares(rows: Floats, weights: Floats, out: Floats) -> None:
-    """Take ``rows.T @ diag(weights) @ rows`` from `out` (n, n); rows (m, n), weights (m,).
+    """Subtract ``rows.T @ diag(weights) @ rows`` from `out` (n, n); rows (m, n), weights (m,).
 
     A block of rows, which stays at hand, is taken out of all of `out` before the next.
     """
@@ -127,10 +127,10 @@ def pivot_of(a: Floats, col: int, n: int) -> int:
 def factorise(columns: Floats, order: Words) -> bool:
     """Factorise a matrix (n, n) in place, row c of `columns` being its column c.
 
-    Gaussian elimination of the transposed with pivoted rows, exchanged as `order` tells; the
-    pivots are kept inverted. Large matrices are taken a panel of columns at a time, whose pivots
-    stay at hand while all that is right of them is read and written once. Returns False if the
-    matrix is singular.
+    Gaussian elimination of the transposed with pivoted rows, exchanged as listed in `order`; the
+    pivots are kept inverted. Large matrices are processed a panel of columns at a time: its pivots
+    stay in the cache while all columns right of them are read and written once. Returns False if
+    the matrix is singular.
     """
     n = columns.shape[0]
     width = max(n, 1) if n <= _WHOLE else _PANEL
@@ -190,7 +190,7 @@ def factorise_pivots(columns: Floats, order: Words, first: int, last: int) -> bo
 
 @inlined_by_llvm
 def eliminate_pivots(columns: Floats, first: int, last: int, begin: int, end: int) -> None:
-    """Take the pivots `first` to `last` out of one another's columns `begin` to `end`."""
+    """Eliminate the pivots `first` to `last` from one another's columns `begin` to `end`."""
     for row in range(first + 1, last):
         for col in range(first, row):
             factor = columns[row, col]
@@ -200,7 +200,7 @@ def eliminate_pivots(columns: Floats, first: int, last: int, begin: int, end: in
 
 @kernel
 def eliminate_panel(columns: Floats, first: int, last: int) -> None:
-    """Take the pivots `first` to `last`, fours, out of all columns beyond them, rows in pairs."""
+    """Eliminate the pivots `first` to `last`, in fours, from all columns beyond, rows in pairs."""
     n = columns.shape[0]
     for at in range(first, last, 4):
         for before in range(first, at, 4):
@@ -219,7 +219,7 @@ def eliminate_panel(columns: Floats, first: int, last: int) -> None:
 
 @inlined_by_llvm
 def eliminate_four(columns: Floats, row: int, at: int, begin: int) -> None:
-    """Take the four pivots from `at` on out of a row and the next, from column `begin` on."""
+    """Eliminate the four pivots from `at` on from a row and the next, from column `begin` on."""
     f_0, f_1 = columns[row, at], columns[row, at + 1]
     f_2, f_3 = columns[row, at + 2], columns[row, at + 3]
     g_0, g_1 = columns[row + 1, at], columns[row + 1, at + 1]
@@ -235,7 +235,7 @@ def eliminate_four(columns: Floats, row: int, at: int, begin: int) -> None:
 
 @kernel
 def substitute(factors: Floats, order: Words, x: Floats) -> None:
-    """Solve for the right-hand side `x` (n,) in place, with what `factorise` made."""
+    """Solve for the right-hand side `x` (n,) in place, with the factors of `factorise`."""
     substitute_rows(factors, order, x[None])
 
 
@@ -268,7 +268,7 @@ def substitute_rows(factors: Floats, order: Words, x: Floats) -> None:
 
 @inlined_by_llvm
 def forward_four(factors: Floats, c: int, x: Floats) -> None:
-    """Take four unknowns from `c` on, which become known, out of those that follow."""
+    """Eliminate four unknowns from `c` on, which become known, from those that follow."""
     for k in range(c, c + 4):
         x[k] *= factors[k, k]
         for a in range(k + 1, c + 4):
@@ -282,7 +282,7 @@ def forward_four(factors: Floats, c: int, x: Floats) -> None:
 
 @inlined_by_llvm
 def backward_four(factors: Floats, c: int, x: Floats) -> None:
-    """Take four unknowns from `c` on, which become known, out of those before."""
+    """Eliminate four unknowns from `c` on, which become known, from those before."""
     for k in range(c + 3, c, -1):
         for a in range(c, k):
             x[a] -= factors[k, a] * x[k]

@@ -1,9 +1,9 @@
-"""Kernels of a restraining rim that yields: its law and where around the plate it is bent.
+"""Kernels of a restraining rim that yields: its law and its plastic deformation in plan.
 
 The rim is an elastic-plastic spring with hardening in radial direction, beside a damper that acts
-on its elastic part alone: what presses on it never exceeds what it bears. Plastic deformation
-stays where the slider pressed, kept in waves around the plate (docs/theory.md, section 3). A rim
-without end of strength is the contact of Eq. (2).
+on its elastic part alone: its force never exceeds its strength. Plastic deformation stays at the
+point of contact, kept in waves around the plate (docs/theory.md, section 3). A rim of unlimited
+strength is the contact of Eq. (2).
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def keep_dents(
 ) -> None:
     """Set the dents of a rim from those before the step; a rim pressed too far is broken.
 
-    `closure` is its elastic deformation, `here` the plastic one where it is pressed.
+    `closure` is its elastic deformation, `here` the plastic one at the contact.
     """
     for a in range(old.shape[0]):
         new[a] = old[a]
@@ -94,9 +94,9 @@ def press_rim(
     strength: float,
     hardening: float,
 ) -> tuple[float, float, float, float]:
-    """Return force of a rim, its derivative, its elastic deformation and how far it flows.
+    """Return force of a rim, its derivative, its elastic deformation and its plastic flow.
 
-    `gap` is the way beyond the rim as it is bent, `strength` what it bears there (3.11).
+    `gap` is the displacement beyond the deformed rim, `strength` its resistance there (3.11).
     """
     force, slope, closure = kelvin_voigt(gap, closure_old, stiffness, damping, dt)
     if not force > strength:
@@ -109,7 +109,7 @@ def press_rim(
 def meet_rim(
     p: Props, dent: Floats, gap: float, x: float, y: float, closure_old: float, dt: float
 ) -> tuple[float, float, float, float, float, float]:
-    """Return what `press_rim` does of a rim with dents in the direction (x, y), and these.
+    """Return the values of `press_rim` for a rim with dents in the direction (x, y), and these.
 
     `gap` is the way beyond the rim as it was built. The last two are its plastic deformation before
     the step, and how that changes by the angle, as far as the force follows it.
@@ -126,6 +126,6 @@ def meet_rim(
         p.rim_yield_force + p.rim_hardening * before,
         p.rim_hardening,
     )
-    if flow > 0.0:  # what it flows makes up for where it was bent less
+    if flow > 0.0:  # its flow makes up for the smaller dent
         slant = 0.0
     return force, slope, closure, flow, before, slant

@@ -25,7 +25,7 @@ from lir_element._compile.jit import inlined_by_llvm, kernel
 if TYPE_CHECKING:
     from lir_element.layout import Mapped
 
-_BEND = 0.9  # rad a step, beyond which a path is too coarse to tell where it is bound for
+_BEND = 0.9  # rad a step, above which a path is too coarse to extrapolate
 _STEEPEST = math.tan(_BEND)
 _SMALL = 0.02  # rad, below which a few terms of a series are exact to round-off
 _FALL = 1e12  # of the axial force in a step, beyond which nothing but slip can follow
@@ -35,8 +35,8 @@ _FALL = 1e12  # of the axial force in a step, beyond which nothing but slip can 
 def kept_share(push_old: float, push: float, floor: float) -> tuple[float, float]:
     """Return the share of z that a changing axial force leaves, and its derivative by `push`.
 
-    ``(N_old / N)^(1/2)``: the store stays what it is. Contacts that were open have none as they
-    land. Below `floor` the axial force changes nothing.
+    ``(N_old / N)^(1/2)``: the stored energy stays constant. Contacts that were open have none as
+    they land. Below `floor` the axial force changes nothing.
     """
     before, after = max(push_old, floor), max(push, floor)
     if after <= 0.0:
@@ -118,7 +118,7 @@ def returned(
     u_y: float,
     inv: float,
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
-    """Return what `return_map` does; `d` is the sliding over `u_y`, `inv` is one over it."""
+    """Return the values of `return_map`; `d` is the sliding over `u_y`, `inv` is one over it."""
     b_1, b_2 = old_1 + d_1, old_2 + d_2  # (3.3)
     square = b_1 * b_1 + b_2 * b_2
     if square == 0.0 or (square <= 1.0 and not bouc_wen):
@@ -197,17 +197,17 @@ def friction_map(
     before_2: float,
     share: float,
 ) -> Mapped:
-    """Return what `return_map` does where a share of z is kept, and more.
+    """Return the values of `return_map` for a kept share of z, and more.
 
     Eleven numbers: z (2), dz/d(dw) (2 x 2, by rows), the sliding that goes on past the old z (>= 0)
     and its derivative by dw (2), and the derivative of z by the axial force (2). `kept` and
     `by_push` are those of `kept_share`; the sliding counts with the mean of the roots of both axial
     forces over the last one, ``(1 + kept) / 2``.
 
-    The return map leaves z along the mean direction of the step: half a step late where the path
-    bends. The direction of the step before, (before_1, before_2), tells how it bends: z is turned
-    on by the angle between both times `share`, ``dt / (dt + dt_before)``. No turn where nothing
-    slips, where the path runs straight or back, or beyond `_BEND`. docs/theory.md, section 3.
+    The return map leaves z along the mean direction of the step: half a step late if the path
+    bends. The direction of the step before, (before_1, before_2), gives the bend: z is rotated by
+    the angle between both times `share`, ``dt / (dt + dt_before)``. No rotation if nothing slips,
+    if the path runs straight or back, or beyond `_BEND`. docs/theory.md, section 3.
     """
     size = math.sqrt(old_1 * old_1 + old_2 * old_2)
     return friction_step(
@@ -247,7 +247,7 @@ def friction_step(
     before_2: float,
     share: float,
 ) -> Mapped:
-    """Return what `friction_map` does from what all trials of a step, or all contacts, share.
+    """Return the values of `friction_map` from the common data of all trials, or all contacts.
 
     `size` is that of the old z, `per_u` is ``1 / u_y``, `softer` is ``2 / (1 + kept)``.
     """
@@ -273,7 +273,7 @@ def friction_step(
     flat = (z_1, z_2, h_11, h_12, h_21, h_22, slid, a_1, a_2, n_1, n_2)
     if share == 0.0 or slip == 0.0 or slid == 0.0:
         return flat
-    if slid < slip:  # what a falling axial force takes from z is no sliding
+    if slid < slip:  # the loss of z under a falling axial force is no sliding
         slip, s_1, s_2, s_n = slid, a_1, a_2, 0.0
     turns, turn, by_angle, by_slip = turn_to_end(before_1, before_2, dw_1, dw_2, share, slip, u_y)
     if not turns:
@@ -308,7 +308,7 @@ def turn_to_end(
     slip: float,
     u_y: float,
 ) -> tuple[bool, float, float, float]:
-    """Return whether z turns on to the end of the step, its angle and what derives it (3.7).
+    """Return True if z rotates to the end of the step, its angle and the derivative (3.7).
 
     By the direction of the sliding over its length, and by the slip.
     """
@@ -320,7 +320,7 @@ def turn_to_end(
     q = angle * angle * (1.0 / (_BEND * _BEND))
     square = dw_1 * dw_1 + dw_2 * dw_2
     over = 1.0 / (slip + u_y)
-    part = slip * over  # what a turn adds up to over the steps is then half a step's
+    part = slip * over  # the sum of rotations over the steps is then half a step's
     whole = share * angle * (1.0 - q) ** 2
     by_angle = share * part * (1.0 - q) * (1.0 - 5.0 * q) / square
     return True, whole * part, by_angle, whole * u_y * over * over
@@ -333,8 +333,8 @@ def sliding_on(
     """Return the part of the sliding that goes on past the old z, and its derivative by it (2).
 
     `before` is the size of the old z, `d` the sliding over `u_y`. It gives the friction its speed.
-    What unloads z has none; neither has what a changing axial force takes from z or asks to be
-    filled, so that it does not switch the friction.
+    Unloading of z has no speed; neither has its change by a changing axial force, so that this does
+    not switch the friction.
     """
     b_1, b_2 = old_1 + d_1, old_2 + d_2
     size = math.sqrt(b_1 * b_1 + b_2 * b_2)
@@ -356,8 +356,8 @@ def speed_at_end(
 ) -> tuple[float, float]:
     """Return the speed of sliding at the end of the step and its derivative by the sliding.
 
-    The mean speed of a step is that of its middle; the step before tells how it changes. `share`
-    is ``dt / (dt + dt_before)``.
+    The mean speed of a step is that of its middle; the step before gives its change. `share` is
+    ``dt / (dt + dt_before)``.
     """
     rate = 1.0 / dt
     speed = slip * rate
@@ -380,7 +380,7 @@ def open_work(force_old: float, force: float, approach: float, closed: float) ->
 
 @kernel
 def surplus(stiffness: float, closure_old: float, closure: float, work: float) -> float:
-    """Return what a contact gives in a step beyond what it had stored; `work` is done on it."""
+    """Return a contact's release in a step beyond its stored energy; `work` is done on it."""
     return max(0.5 * stiffness * (closure**2 - closure_old**2) - work, 0.0)
 
 

@@ -1,10 +1,10 @@
-"""Kernels of the quick search for the sliders: a chord method from where the last steps lead.
+"""Kernels of the quick search for the sliders: a chord method from the extrapolated place.
 
 The inverse of Newton's matrix is kept from step to step, so that most iterations need forces alone;
-derivatives are taken anew where the time step differs or the residual falls too slowly. What is
-kept is part of the committed state: a trial is a function of that and of its displacements. Trials
-of one step of a time history alone set out from what the last one found (`begin_trials`). Where the
-search finds nothing, `condensed` searches by Newton's method. docs/theory.md, section 7.
+derivatives are renewed if the time step differs or the residual falls too slowly. The kept data are
+part of the committed state: a trial is a function of that and of its displacements. Only trials of
+one step of a time history start from the result of the last one (`begin_trials`). If the search
+finds nothing, `condensed` searches by Newton's method. docs/theory.md, section 7.
 """
 
 from __future__ import annotations
@@ -44,13 +44,13 @@ def begin_search(new: Search) -> None:
 
 @kernel
 def forget(kept: Search) -> None:
-    """Forget what was kept."""
+    """Clear the kept data."""
     kept.leads, kept.inverse_step = 0, 0.0
 
 
 @kernel
 def keep_search(old: Search, new: Search) -> None:
-    """Commit what a trial leaves for the next search."""
+    """Commit the data of a trial for the next search."""
     old.leads = new.leads
     if new.leads > 0:
         for k in range(2):
@@ -76,9 +76,9 @@ def step_on(new: Bodies, w: Scratch) -> None:
 
 @kernel
 def lead_on(s: BodyStep, dt: float) -> None:
-    """Move the sliders on from the start of a search by what it missed before.
+    """Move the sliders from the start of a search by the last search's correction.
 
-    In the last trial of the step; else in the last step, which goes on changing as it did where
+    That of the last trial of the step; else of the last step, which changes further as it did if
     three steps are equal.
     """
     old, trial, new, w = s.search_old, s.search_new, s.new, s.scratch
@@ -101,7 +101,7 @@ def lead_on(s: BodyStep, dt: float) -> None:
 
 @kernel
 def keep_lead(s: BodyStep, dt: float) -> None:
-    """Keep where the sliders have come to rest, as seen from the start of the search."""
+    """Keep the sliders' final place relative to the start of the search."""
     old, new, w, bodies = s.search_old, s.search_new, s.scratch, s.new
     for k in range(2):
         for a in range(3):
@@ -126,7 +126,7 @@ def keep_inverse(w: Scratch, new: Search, dt: float) -> None:
 
 @kernel
 def renew_inverse(s: BodyStep, dt: float) -> bool:
-    """Take the inverse anew from the derivative at hand; False where there is none."""
+    """Renew the inverse from the present derivative; False if there is none."""
     set_system(s, dt)
     if not invert(s.scratch):
         return False
@@ -136,7 +136,7 @@ def renew_inverse(s: BodyStep, dt: float) -> bool:
 
 @kernel
 def chord_direction(c: Sliders, w: Scratch, inverse: Floats) -> bool:
-    """Set ``w.step`` from the residual; False where it is too long to trust."""
+    """Set ``w.step`` from the residual; False if it is too long."""
     step, r = w.step, w.residual
     for row in range(12):
         step[row] = 0.0
@@ -148,7 +148,7 @@ def chord_direction(c: Sliders, w: Scratch, inverse: Floats) -> bool:
 
 @kernel
 def weigh(s: BodyStep, dt: float) -> float:
-    """Set what is held of discs and rims, and ``w.residual``; return its size.
+    """Set the forces of discs and rims, and ``w.residual``; return its size.
 
     As `unbalanced`, whose forces by origin are left as they are.
     """
@@ -166,7 +166,7 @@ def weigh(s: BodyStep, dt: float) -> float:
 
 @kernel
 def seek(s: BodyStep, dt: float, speeds: Floats) -> int:
-    """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
+    """Find the sliders' equilibrium from their present place; return iterations, -1 if none."""
     p, c, w = s.props, s.sliders, s.scratch
     kept = s.search_new if s.search_new.renewed != 0 else s.search_old
     fresh = abs(kept.inverse_step - dt) > _LIKE * dt

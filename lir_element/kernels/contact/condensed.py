@@ -1,8 +1,8 @@
 """Kernels of the level 'contact': both sliders as bodies, their equilibrium found in the element.
 
-The quick search of `chord` comes first. Where it finds nothing Newton's method does, from where the
-sliders go with the plates, then from what the level 'pendulum' says; where none leads to a static
-state, softer friction does. docs/theory.md, section 7.
+The quick search of `chord` comes first. If it finds nothing, Newton's method starts from the
+sliders' motion with the plates, then from the state of the level 'pendulum'; if none leads to a
+static state, softer friction does. docs/theory.md, section 7.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ SHORTER = 0.35  # of a step that does not do: between 1/10 and 1/2 (Dennis and S
 _TRIES = 5  # of a step: the last one is 0.35^4, 1.5 % of it (a choice)
 _LEAPS = 3  # whole steps taken although the residual grows (a choice)
 _GAIN = 0.9  # of the residual, with which a step does; else the best of them is taken (a choice)
-_SOFTEST = 1e-2  # stiffness of the pendulum over that of friction, where it is softened first
+_SOFTEST = 1e-2  # stiffness of the pendulum over that of friction, at the first softening
 _STIFFER = 0.3  # by which it is brought down: some three iterations a stage (a choice)
 
 
@@ -79,7 +79,7 @@ def first_share(new: Bodies, w: Scratch, bodies: int, length: float) -> float:
 
 @kernel
 def newton_direction(c: Sliders, new: Bodies, w: Scratch) -> float:
-    """Set ``w.step`` of both sliders; return how much to try first, 0 where it is singular."""
+    """Set ``w.step`` of both sliders; return the first factor to try, 0 if it is singular."""
     for row in range(12):
         w.joint[row, 12] = w.residual[row]
     if not solve_one(w, w.step):
@@ -89,7 +89,7 @@ def newton_direction(c: Sliders, new: Bodies, w: Scratch) -> float:
 
 @kernel
 def move_sliders(new: Bodies, w: Scratch, factor: float) -> None:
-    """Move the sliders by `factor` times ``w.step`` from where the iteration began."""
+    """Move the sliders by `factor` times ``w.step`` from the start of the iteration."""
     for k in range(2):
         for a in range(3):
             new.displacement[k, a] = w.try_displacement[k, a] + factor * w.step[6 * k + a]
@@ -104,7 +104,7 @@ def move_sliders(new: Bodies, w: Scratch, factor: float) -> None:
 
 @kernel
 def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
-    """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
+    """Find the sliders' equilibrium from their present place; return iterations, -1 if none."""
     p, c, w = s.props, s.sliders, s.scratch
     new, touch_new = s.new, s.touch_new
     size = unbalanced(s, dt, speeds, True)
@@ -162,10 +162,11 @@ def soften(p: Props, w: Scratch, softness: float) -> bool:
 
 @kernel
 def balance_by_softer_friction(s: BodyStep, pen: Work) -> int:
-    """Bring the sliders into static equilibrium by way of softer friction; -1 if none.
+    """Find the sliders' static equilibrium with softer friction first; -1 if none.
 
-    Full contact makes both surfaces slide where plates tilt, by their radius times the tilt. Bodies
-    rock instead where that is more than the way to slip: from there the search starts too far off.
+    Full contact makes both surfaces slide if plates tilt, by their radius times the tilt. Bodies
+    rock instead if that is more than the displacement before slip: from there the search starts too
+    far off.
     """
     p, w = s.props, s.scratch
     softness = _SOFTEST
@@ -193,7 +194,7 @@ def set_losses(p: Props, old: State, w: Scratch) -> None:
 
 @kernel
 def go_on(s: BodyStep, old: State, dt: float, speeds: Floats) -> int:
-    """Bring the sliders into equilibrium from where they go with the plates; see `carry_on`."""
+    """Find the sliders' equilibrium from their motion with the plates; see `carry_on`."""
     lead_on(s, dt)
     count = seek(s, dt, speeds)
     if count < 0:
@@ -211,7 +212,7 @@ def contact_trial(
 ) -> int:
     """Determine the state at displacements `u`, velocities `v` (12,) and `time`.
 
-    Returns a RunStatus code; what is committed is read, never written.
+    Returns a RunStatus code; the committed state is read, never written.
     """
     p, c, w = s.props, s.sliders, s.scratch
     b_old, b_new = s.old, s.new
@@ -228,7 +229,7 @@ def contact_trial(
     if dt > 0.0 and s.points[0].disc > 0.0:
         if carry_on(s, old, dt):
             count = go_on(s, old, dt, pen.static_speed)
-        elif s.search_new.follows == 2:  # from where the last trial has left the sliders
+        elif s.search_new.follows == 2:  # from the sliders' place after the last trial
             count = seek(s, dt, pen.static_speed)
     if count < 0:
         code = trial(p, old, new, pen, u, v, time)
@@ -277,7 +278,7 @@ def look_at_committed(s: BodyStep, old: State) -> None:
 
 @kernel
 def condense(w: Scratch, k: Floats) -> None:
-    """Add what the sliders' motion takes from the nodes' stiffness `k` (7.6).
+    """Subtract the sliders' condensed share from the nodes' stiffness `k` (7.6).
 
     The inverse stands in ``w.joint``. A node touches one slider: ``w.follow`` (12, 12) is the
     motion of both sliders for one of its nodes' displacements.
@@ -305,8 +306,8 @@ def condense(w: Scratch, k: Floats) -> None:
 def contact_tangent(s: BodyStep, pen: Work, k: Floats) -> None:
     """Fill the 12 x 12 tangent `k` of the trial in the scratch, sliders condensed.
 
-    Plates on surfaces without friction meet nothing as they turn about the vertical: in a static
-    state they are held as loose sliders are, else round-off would say how far they turn.
+    Plates on surfaces without friction have no resistance to rotation about the vertical: in a
+    static state they are held as loose sliders are, because round-off would decide their rotation.
     """
     c, w, dt = s.sliders, s.scratch, pen.dt
     if w.derived == 0:

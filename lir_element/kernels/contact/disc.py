@@ -1,7 +1,7 @@
 """Kernels of a disc on an elastic bed: its load in closed form, and its friction with spin.
 
 The slider's face is a rigid disc of radius a on a bed whose pressure is proportional to the
-penetration ``p + g . r``. Where all of it presses the load is that of the centre, else that of a
+penetration ``p + g . r``. If all of it presses, the load is that of the centre, else that of a
 segment of the circle. Friction is that of a disc under even pressure about the centre of pressure:
 its dissipation for a sliding v and a spin w, the mean of ``|v + w x r|``, is a norm of (v, a w).
 docs/theory.md, section 7.
@@ -22,8 +22,8 @@ _D, _E = 0.573, 0.368  # of the norm (7.12): force and torque within 3 %
 _A = _D + 1.0 / 4.0  # exact for slow spin
 _C = 4.0 / 9.0 * _E  # exact for fast spin
 _B = 2.0 / 3.0 * _E + 4.0 / 9.0 * _D  # exact to second order there
-_NOTHING = 1e-17  # square of z: friction of 1e-10 of the load, where Newton's method stops
-_FULL = 1.0 + 1e-12  # round-off: what has slipped holds until it slides on
+_NOTHING = 1e-17  # square of z: friction of 1e-10 of the load, the end of Newton's method
+_FULL = 1.0 + 1e-12  # round-off: a contact that has slipped holds until it slides on
 
 
 @kernel
@@ -48,7 +48,7 @@ def disc_load(p: float, g_1: float, g_2: float, a: float) -> tuple[float, float,
     """Return mean penetration and place of the centre of pressure (2) of a disc; zeros if open."""
     tilt = math.sqrt(g_1 * g_1 + g_2 * g_2)
     edge = tilt * a
-    if p >= edge:  # all of it presses
+    if p >= edge:  # full contact
         if p <= 0.0:
             return 0.0, 0.0, 0.0
         arm = 0.25 * a * a / p
@@ -64,7 +64,7 @@ def disc_load(p: float, g_1: float, g_2: float, a: float) -> tuple[float, float,
 
 @kernel
 def disc_load_slope(w: Scratch, p: float, g_1: float, g_2: float, a: float) -> None:
-    """Set the derivative of what `disc_load` returns, ``w.bed`` (3, 3): by p and g (2)."""
+    """Set the derivative of `disc_load`, ``w.bed`` (3, 3): by p and g (2)."""
     out = w.bed
     tilt = math.sqrt(g_1 * g_1 + g_2 * g_2)
     if p >= tilt * a:
@@ -135,7 +135,7 @@ def slid_on(
 def returned_by(
     bouc_wen: int, exponent: float, size: float, kappa: float
 ) -> tuple[float, float, float, float]:
-    """Return what is left of b, ``z = c b``, and three factors of its derivative.
+    """Return the remaining share of b, ``z = c b``, and three factors of its derivative.
 
     ``dc = c_b g . db + c_d g . dd - c_h (h d) . db`` with g half the gradient of the norm's square,
     h its derivative and d the sliding over the way to slip.
@@ -175,8 +175,8 @@ def rub(
     Friction over mu N (2), torque over mu N a, the sliding past the old z, and the norm of the new
     hysteretic variable `z` (3,); `old_size` is that of the old one. With `derive` also ``w.rub``
     (3, 4), the derivative of the first three by `d` and by the axial force, and ``w.slid_by`` (3,),
-    that of the sliding by `d`. Laws as in `slip.friction_map`; the norm of section 7 takes the
-    place of the length.
+    that of the sliding by `d`. Laws as in `slip.friction_map`; the norm of section 7 replaces the
+    length.
     """
     inv = 0.5 * (1.0 + kept) / u_y
     h_1, h_2, h_3 = d_1 * inv, d_2 * inv, d_3 * inv
@@ -200,7 +200,7 @@ def rub(
         bend_of_norm(w, q_v, q_t, q_vv, q_vt, q_tt)
         rub_slope(w, old, inv, 0.5 * by_push / u_y, by_push, size, c, c_b, c_d, c_h)
     if turns:
-        held = slid < slip  # what a falling axial force takes from z is no sliding
+        held = slid < slip  # the loss of z under a falling axial force is no sliding
         if held:
             slip = slid
         turns, angle, by_angle, by_slip = turn_to_end(

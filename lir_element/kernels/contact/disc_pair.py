@@ -1,7 +1,7 @@
 """Kernels of one pair of a disc: resultant, its place, friction and spin.
 
 A pair is the face of one body on the surface of another, its carrier; all is in axes of the
-carrier. The load acts where the pressure is, and through the centre of the carrier's sphere.
+carrier. The load acts at the centre of pressure, and through the centre of the carrier's sphere.
 Friction belongs to the material there. Derivatives: `disc_slope`. docs/theory.md, section 7.
 """
 
@@ -35,10 +35,10 @@ _LEAST_RADIUS = 0.05  # of the slider's, in which an edge still resists spin (a 
 def damped_centre(
     e_1: float, e_2: float, old: Touch, share: float, a: float
 ) -> tuple[float, float]:
-    """Return where the bed's damping moves the centre of pressure.
+    """Return the centre of pressure moved by the bed's damping.
 
-    What was pressed is damped as it is: the centre goes ahead of its elastic place by
-    ``c V_old / (N dt)`` times its way in the step (7.14), no farther than the edge.
+    The pressed part is damped: the centre is ahead of its elastic place by ``c V_old / (N dt)``
+    times its motion in the step (7.14), no farther than the edge.
     """
     e_1 += share * (e_1 - old.core[0])
     e_2 += share * (e_2 - old.core[1])
@@ -121,7 +121,7 @@ def rest_disc(w: Scratch, old: Touch, new: Touch, friction: float) -> None:
 
 @inlined_by_llvm
 def keep_place(w: Scratch, new: Touch) -> None:
-    """Keep where the face is, for the next step."""
+    """Keep the place of the face, for the next step."""
     for a in range(3):
         new.spot[a] = w.d[a]
         new.axes[0, a], new.axes[1, a] = w.face[0, a], w.face[1, a]
@@ -129,9 +129,9 @@ def keep_place(w: Scratch, new: Touch) -> None:
 
 @inlined_by_llvm
 def torsion_radius(old: Touch, a: float) -> float:
-    """Return the radius of the even disc about the centre of pressure that resists spin alike.
+    """Return the radius of the even disc about the centre of pressure of equal spin torque.
 
-    An eccentric pressure leaves ``a sqrt((a^2 - e^2) / (a^2 + e^2))`` of it.
+    An eccentric pressure reduces it to ``a sqrt((a^2 - e^2) / (a^2 + e^2))``.
     """
     square = (old.centre[0] ** 2 + old.centre[1] ** 2) / (a * a)
     share = math.sqrt(max(1.0 - square, 0.0) / (1.0 + square))
@@ -237,7 +237,7 @@ def plane_disc(
 ) -> float:
     """Set force and couple of the top slider's face on the bottom slider's plane; see above.
 
-    What holds the halves together rubs where the pressure is, in the middle if there is none.
+    The preload of the halves rubs at the centre of pressure, or in the middle if there is none.
     """
     keep_place(w, new)
     w.tilt[0], w.tilt[1] = -w.face[0, 2], -w.face[1, 2]
@@ -245,7 +245,7 @@ def plane_disc(
     if derive:
         slope_of_tilt(w, face, -q[0, 2], -q[1, 2], -q[2, 2], 0.0)
     push = press_bed(w, c, 2, old, new, -w.d[2], a, dt, derive)
-    load = push + p.interface_preload  # what it rubs by (3.14)
+    load = push + p.interface_preload  # load of its friction (3.14)
     if load <= 0.0:
         rest_disc(w, old, new, p.interface_friction)
         return 0.0

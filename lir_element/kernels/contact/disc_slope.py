@@ -51,7 +51,7 @@ def slope_of_tilt(
 def slope_of_damping(
     w: Scratch, old: Touch, new: Touch, share: float, fall: float, a: float
 ) -> None:
-    """Take the damping of the bed up in the derivative of the centre of pressure, ``w.bed``.
+    """Add the bed's damping to the derivative of the centre of pressure, ``w.bed``.
 
     `share` is that of `damped_centre`, `fall` its decrease with the penetration V over itself.
     """
@@ -112,9 +112,9 @@ def slope_of_push(
 def slope_of_spin(
     w: Scratch, q: Floats, face: Floats, old: Touch, n_0: float, n_1: float, n_2: float
 ) -> None:
-    """Set the derivative of the spin about `n`, ``w.spin_by`` (6,): by n and by a turn.
+    """Set the derivative of the spin about `n`, ``w.spin_by`` (6,): by n and by a rotation.
 
-    Also ``w.axes`` (2, 3): the axes of the face where they were, as the carrier has turned them.
+    Also ``w.axes`` (2, 3): the former axes of the face, as the carrier has rotated them.
     """
     by, axes = w.spin_by, w.axes
     x_0, x_1, x_2, dots = 0.0, 0.0, 0.0, 0.0

@@ -189,7 +189,7 @@ def bond(
     damping: float,
     dt: float,
 ) -> None:
-    """Set force and derivative of a point where the slider is rigid: an elastic bond."""
+    """Set force and derivative of a point if the slider is rigid: an elastic bond."""
     rate = damping / dt if dt > 0.0 else 0.0
     home = (home_1, home_2, 0.0)
     for a in range(3):
@@ -208,8 +208,8 @@ def bond(
 def rim(p: Props, side: int, w: Scratch, old: Bodies, new: Bodies, dt: float) -> None:
     """Set force and derivative of the circular rim `side` on the slider's outermost point.
 
-    `w.d` runs from the sphere's centre to that point; its distance from the plate's axis counts,
-    whatever the direction.
+    `w.d` runs from the sphere's centre to that point; its distance from the plate's axis counts, in
+    any direction.
     """
     x, y = w.d[0], w.d[1]
     size = math.sqrt(x * x + y * y)

@@ -1,9 +1,9 @@
 """Kernels that put all contact pairs of a bearing together: forces on four bodies, derivative.
 
-Bodies: 0 node i with the bottom plate, 1 bottom slider, 2 top slider, 3 node j with the top
-plate. The origin is the undeformed place of the bottom sphere's centre. A pair's force depends on
-the place of its point in axes of the carrier alone; force and counterforce act at that point, so
-that forces and moments of each pair balance to round-off (Eq. (5) of the paper).
+Bodies: 0 node i with the bottom plate, 1 bottom slider, 2 top slider, 3 node j with the top plate.
+The origin is the undeformed place of the bottom sphere's centre. A pair's force depends on the
+place of its point in axes of the carrier alone; force and counterforce act at that point, so that
+forces and moments of each pair balance to round-off (Eq. (5) of the paper).
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def clear_square(k: Floats) -> None:
 
 @inlined_by_llvm
 def hold_rim(s: BodyStep, side: int, body: int, carrier: int, dt: float, derive: bool) -> None:
-    """Hold the force of a rim on the slider's outermost point; its derivative goes to ``w.k``."""
+    """Store the force of a rim on the slider's outermost point; its derivative goes to ``w.k``."""
     p, w, held = s.props, s.scratch, s.scratch.held[3 + side]
     up = p.lever[0] if side == 0 else -p.lever[1]
     place_point(w, held, body, carrier, s.sliders.vertex[side], up)
@@ -69,7 +69,7 @@ def hold_rim(s: BodyStep, side: int, body: int, carrier: int, dt: float, derive:
 
 @inlined_by_llvm
 def hold_pairs(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive: bool) -> None:
-    """Hold the forces of discs and rims, and set the new state of contacts; see `press`."""
+    """Store the forces of discs and rims, and set the new state of contacts; see `press`."""
     w = s.scratch
     s.new.step = dt
     w.share, w.step_before = step_share(dt, s.old.step), s.old.step
@@ -98,7 +98,7 @@ def push_sliders(s: BodyStep, out: Floats) -> None:
 
 @kernel
 def add_up(s: BodyStep) -> None:
-    """Add what is held to the forces by origin, and set their sum ``w.g``."""
+    """Add the stored forces to those by origin, and set their sum ``w.g``."""
     w, parts = s.scratch, s.new.parts
     if s.points[0].disc > 0.0:
         spread_pair(parts, w.held[0], 1, 0, NORMAL, LOW_BOTTOM)
@@ -195,7 +195,7 @@ def set_face(w: Scratch, body: int, carrier: int) -> None:
 def hold_disc(
     s: BodyStep, pair: int, body: int, carrier: int, dt: float, speed: float, derive: bool
 ) -> None:
-    """Hold the forces of the disc `pair` where the pressure is; their derivative goes to ``w.k``.
+    """Store the forces of the disc `pair` at the pressure; their derivative goes to ``w.k``.
 
     `pair` is 0 for the bottom surface, 1 for the interface, 2 for the top surface.
     """
@@ -227,14 +227,14 @@ def hold_disc(
 
 
 PUSH, FRICTION, COUPLE = 2, 3, 4
-"""Rows of what is held; 0 and 1 are the arms."""
+"""Rows of the stored forces; 0 and 1 are the arms."""
 
 
 @inlined_by_llvm
 def place_point(
     w: Scratch, held: Floats, body: int, carrier: int, height: float, up: float
 ) -> None:
-    """Set the arms to a point on the body's axis, and ``w.d``: where the carrier sees it.
+    """Set the arms to a point on the body's axis, and ``w.d``: its place in the carrier's axes.
 
     At a `height` over the body's mass centre, from `up` on the carrier's axis.
     """
@@ -249,7 +249,7 @@ def place_point(
 
 @inlined_by_llvm
 def hold_forces(w: Scratch, held: Floats, carrier: int) -> None:
-    """Hold the force and couple that a pair has in axes of its carrier."""
+    """Store the force and couple of a pair in axes of its carrier."""
     q = w.q[carrier]
     n, t, m = w.normal, w.tangential, w.couple
     for a in range(3):
@@ -260,7 +260,7 @@ def hold_forces(w: Scratch, held: Floats, carrier: int) -> None:
 
 @inlined_by_llvm
 def hold_nothing(held: Floats) -> None:
-    """Hold that a pair passes no force."""
+    """Store that a pair has no force."""
     for a in range(3):
         held[PUSH, a], held[FRICTION, a], held[COUPLE, a] = 0.0, 0.0, 0.0
 
@@ -293,7 +293,7 @@ def add_held(out: Floats, first: int, sign: float, side: int, held: Floats) -> N
 def spread_pair(
     parts: Floats, held: Floats, body: int, carrier: int, normal: int, friction: int
 ) -> None:
-    """Add what is held of a pair to the `parts` of two origins, on both of its bodies."""
+    """Add the stored forces of a pair to the `parts` of two origins, on both of its bodies."""
     f, t = held[PUSH], held[FRICTION]
     for side in range(2):
         sign = 1.0 if side == 0 else -1.0

@@ -1,4 +1,4 @@
-"""Kernels of where bodies and their contact points are: turns as quaternions, places, origins."""
+"""Kernels of the places of bodies and contact points: rotations as quaternions, origins."""
 
 from __future__ import annotations
 

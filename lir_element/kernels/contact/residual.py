@@ -1,7 +1,7 @@
 """Kernels of the sliders' equilibrium: its residual, the size to reach, Newton's matrix.
 
 Twelve unknowns: displacement and spin of the bottom and of the top slider. Their inertia enters by
-the implicit Euler rule over the step, so that the system stays regular where contacts open.
+the implicit Euler rule over the step, so that the system stays regular if contacts open.
 docs/theory.md, section 7.
 """
 
@@ -56,7 +56,7 @@ def size_of_residual(c: Sliders, w: Scratch) -> float:
 
 @kernel
 def longest(step: Floats, bodies: int, length: float) -> float:
-    """Return the largest turn in a step, or way over `length`: alike in all directions in plan."""
+    """Return the largest rotation in a step, or motion over `length`: isotropic in plan."""
     largest = 0.0
     for k in range(2 * bodies):  # ways and turns of one body after another
         x, y, z = step[3 * k], step[3 * k + 1], step[3 * k + 2]
@@ -89,7 +89,7 @@ def set_system(s: BodyStep, dt: float) -> None:
     for row in range(12):
         for col in range(12):
             a[row, col] = -w.k[6 + row, 6 + col]
-    if dt == 0.0:  # sliders that nothing holds stay where they are
+    if dt == 0.0:  # free sliders stay at their place
         for row in range(12):
             a[row, row] += HOLD * c.stiffness * (1.0 if row % 6 < 3 else c.radius**2)
         return
@@ -102,7 +102,7 @@ def set_system(s: BodyStep, dt: float) -> None:
 
 @inlined_by_llvm
 def eliminate(a: Floats, width: int) -> bool:
-    """Bring the first twelve columns to upper triangular form, over `width` columns."""
+    """Reduce the first twelve columns to upper triangular form, over `width` columns."""
     for col in range(12):
         pivot = pivot_of(a, col, 12)
         if pivot < 0:
@@ -120,7 +120,7 @@ def eliminate(a: Floats, width: int) -> bool:
 
 @kernel
 def solve_one(w: Scratch, x: Floats) -> bool:
-    """Set ``x`` (12,) to the solution for column 12; False where the matrix is singular."""
+    """Set ``x`` (12,) to the solution for column 12; False if the matrix is singular."""
     a = w.joint
     if not eliminate(a, 16):
         return False
@@ -136,7 +136,7 @@ def solve_one(w: Scratch, x: Floats) -> bool:
 def invert(w: Scratch) -> bool:
     """Set the second twelve columns of ``w.joint`` to its inverse, column by column in rows.
 
-    By Gauss and Jordan in place, with pivoted rows; False where the matrix is singular.
+    By Gauss and Jordan in place, with pivoted rows; False if the matrix is singular.
     """
     a, order = w.joint, w.order
     for col in range(12):

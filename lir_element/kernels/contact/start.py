@@ -1,7 +1,7 @@
 """Kernels of the level 'contact': places from which the search for the sliders starts.
 
-Those of the level 'pendulum', its closure shared by the three interfaces; or, in the air, where the
-sliders fly on to. docs/theory.md, section 7.
+Those of the level 'pendulum', with its closure shared by the three interfaces; or, in the air, the
+end of the sliders' flight. docs/theory.md, section 7.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ def turn_back(old: Bodies, new: Bodies) -> None:
 def put_slider(c: Sliders, w: Scratch, new: Bodies, b: int, centre: Floats, depth: float) -> None:
     """Put slider `b` (1, 2) with its sphere's centre at `centre`, axis ``w.axis``.
 
-    It turns from where it is on the shortest way; `depth` is the mass centre's height above the
-    sphere's centre.
+    It rotates the shortest way from its present place; `depth` is the mass centre's height above
+    the sphere's centre.
     """
     matrix_of(new.turn[b - 1], w.spare_matrix)
     x, y, z = w.spare_matrix[0, 2], w.spare_matrix[1, 2], w.spare_matrix[2, 2]
@@ -59,7 +59,7 @@ def put_slider(c: Sliders, w: Scratch, new: Bodies, b: int, centre: Floats, dept
 
 @kernel
 def follow_string(p: Props, c: Sliders, new: Bodies, w: Scratch, pen: Work) -> None:
-    """Put the sliders where the level 'pendulum' has them, its closure shared by the contacts."""
+    """Put the sliders at their places at level 'pendulum', its closure shared by the contacts."""
     closure = pen.l - p.length
     q = pen.q_i
     for a in range(3):
@@ -79,7 +79,7 @@ def follow_string(p: Props, c: Sliders, new: Bodies, w: Scratch, pen: Work) -> N
 
 @kernel
 def fly_on(old: Bodies, new: Bodies, dt: float) -> None:
-    """Put the sliders where their velocity takes them."""
+    """Put the sliders at the end of their free flight."""
     for b in range(2):
         for a in range(3):
             new.displacement[b, a] = old.displacement[b, a] + dt * old.velocity[b, a]
@@ -146,11 +146,11 @@ def multiply(x: Floats, y: Floats, out: Floats) -> None:
 
 @kernel
 def carry_on(s: BodyStep, old: State, dt: float) -> bool:
-    """Put the sliders where they go with the plates as one piece, rocked as they are.
+    """Move the sliders with the plates as one piece, rocked as they are.
 
-    The line of the sphere centres turns and stretches: the sliders turn with it about the bottom
-    sphere's centre, and each contact takes a third of the stretch. An interface that slipped in the
-    last step slips on. False where a contact was open.
+    The line of the sphere centres rotates and stretches: the sliders rotate with it about the
+    bottom sphere's centre, and each contact gets a third of the stretch. An interface that slipped
+    in the last step continues to slip. False if a contact was open.
     """
     p, c, w, new = s.props, s.sliders, s.scratch, s.new
     bottom, plane, top = s.touch_old[0], s.touch_old[1], s.touch_old[2]

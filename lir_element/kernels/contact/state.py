@@ -93,7 +93,7 @@ def set_axes(p: Props, w: Scratch, new: State) -> None:
 def set_slip(p: Props, c: Sliders, w: Scratch, old: State, new: State) -> None:
     """Set the slip of the interface: the top slider's axis point from that of the bottom one.
 
-    A rigid slider has none: what its bond gives is elastic.
+    A rigid slider has none: the displacement of its bond is elastic.
     """
     if p.fused:
         for a in range(2):
@@ -152,9 +152,9 @@ def set_averages(p: Props, c: Sliders, points: Records, touch: Records, new: Sta
 
 @kernel
 def pressure_offset(p: Props, points: Records, touch: Records) -> float:
-    """Return how far the pressure between two discs lies off the sliders' axes, the larger.
+    """Return the larger distance of the discs' pressure from the sliders' axes [m].
 
-    0 where nothing presses, of a rigid slider, and with contact points.
+    0 without pressure, for a rigid slider, and with contact points.
     """
     if points[0].disc == 0.0 or p.fused or touch[1].push == 0.0:
         return 0.0
@@ -219,7 +219,7 @@ def taken_up(b_old: Bodies, b_new: Bodies, moves: Floats, origin: int) -> float:
 
 @kernel
 def spring_gains(s: BodyStep) -> tuple[float, float, float]:
-    """Return what the elastic sliding of all points takes up: bottom, top, interface."""
+    """Return the energy of the elastic sliding of all points: bottom, top, interface."""
     bottom, top, plane = 0.0, 0.0, 0.0
     for j in range(s.points.shape[0]):
         side = _SIDES[s.points[j].pair]
@@ -253,8 +253,8 @@ def spring_gains(s: BodyStep) -> tuple[float, float, float]:
 def contact_accumulate(s: BodyStep, old: State, new: State, bodies: int) -> None:
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
-    Trapezoidal, over the motion of all bodies: the terms sum to the work of the nodes' forces.
-    What friction takes beyond its elastic energy is dissipated.
+    Trapezoidal, over the motion of all bodies: the terms sum to the work of the nodes' forces. The
+    work of friction beyond its elastic energy is dissipated.
     """
     b_old, b_new, moves = s.old, s.new, s.scratch.moves
     set_moves(old, new, b_old, b_new, bodies, moves)
@@ -296,7 +296,7 @@ def points_defect(s: BodyStep) -> float:
     for k in range(2):
         if b_old.rim_force[k] == 0.0 and b_new.rim_force[k] == 0.0:
             continue  # a rim at infinity among them
-        if b_old.rim_dent[k, 0] == math.inf:  # broken in the step before: what it held is lost
+        if b_old.rim_dent[k, 0] == math.inf:  # broken in the step before: its force is lost
             continue
         approach = b_new.rim_gap[k] - b_old.rim_gap[k]
         push_old, push = b_old.rim_force[k], b_new.rim_force[k]

@@ -5,9 +5,9 @@ Three laws (docs/theory.md, sections 3 and 9):
 - the contact opens: ``N = k_v (l - L) + c_v dl/dt``, never below zero;
 - uplift left out (``bilateral``): the same, also in tension. In tension both surfaces carry
   nothing, the interface holds its slip, and the bearing pulls along the line of its centres;
-- vertical coupling left out (``fixed_load`` W > 0): the string keeps its length, the height of
-  the top plate follows from it, and N from ``g_3 = -W``: a pendulum under a constant vertical
-  load. A spring and a damper of their own carry what moves vertically.
+- vertical coupling left out (``fixed_load`` W > 0): the string keeps its length, the height of the
+  top plate follows from it, and N from ``g_3 = -W``: a pendulum under a constant vertical load.
+  Vertical motion has a spring and a damper of its own.
 """
 
 from __future__ import annotations
@@ -36,10 +36,10 @@ def fix_length(p: Props, w: Work) -> None:
 
 @inlined_by_llvm
 def axial(p: Props, old: State, w: Work) -> None:
-    """Set the axial force of the string and its floor (below it all forces fade alike).
+    """Set the axial force of the string and its floor (below it all forces fade equally).
 
-    With it the share of friction's z that its change leaves: all of it under a fixed load, and in
-    a static step, so that how permanent loads came about leaves no trace.
+    Sets also the share of friction's z that its change leaves: all of it under a fixed load, and in
+    a static step, so that the history of permanent loads has no effect.
     """
     gap = (w.l if w.fixed_length == 0.0 else -w.height) - p.length
     if p.bilateral:
@@ -74,9 +74,9 @@ def axial(p: Props, old: State, w: Work) -> None:
 
 @inlined_by_llvm
 def rubs_by(p: Props, force: float) -> tuple[float, float]:
-    """Return what the load that the interface rubs by (3.14) is over its axial force, and its own.
+    """Return the interface's friction load (3.14) over its axial force, and its own share.
 
-    Beside a fixed load it is taken as a share of that. Where all forces fade the preload does, too.
+    With a fixed load it is a share of that. If all forces fade, the preload does, too.
     """
     by = p.fixed_load if p.fixed_load > 0.0 else max(force, p.axial_floor)
     return 1.0 + p.interface_preload / by, by + p.interface_preload
@@ -84,9 +84,9 @@ def rubs_by(p: Props, force: float) -> tuple[float, float]:
 
 @kernel
 def press_surfaces(p: Props, old: State, w: Work) -> None:
-    """Set the share of the surfaces' friction that the pressure leaves, and of their z.
+    """Set the share of the surfaces' friction that the pressure leaves, and that of their z.
 
-    A cycle of the axial force makes no energy where z goes with ``(mu N)^(-1/2)``.
+    A cycle of the axial force makes no energy if z is proportional to ``(mu N)^(-1/2)``.
     """
     w.pressed, w.pressed_n = left_by_pressure(p, w.n_pos), p.pressure_rate
     if w.dt > 0.0:
@@ -136,7 +136,7 @@ def held_rate_fused(w: Work, e_1: float, e_2: float, r_1: float, r_2: float) -> 
 def tension_rates(
     w: Work, e_1: float, e_2: float, spin: float, d_1: float, d_2: float, d_3: float
 ) -> tuple[float, float]:
-    """Return the derivative of ``N s / l``, what the interface passes while the bearing pulls.
+    """Return the derivative of ``N s / l``, the interface's force while the bearing pulls.
 
     By a turn eta and a shift along the slider's own axes.
     """

@@ -1,6 +1,6 @@
 """Kernels of the level 'pendulum': the slider's axis in equilibrium, found by a safeguarded Newton.
 
-Newton's step is shortened until the residual falls; where everything slides and Newton sees no
+Newton's step is shortened until the residual falls. If everything slides and Newton's matrix has no
 stiffness, a search against the residual brackets the zero. docs/theory.md, section 4.
 """
 
@@ -27,7 +27,7 @@ _LARGEST_TURN = 0.1  # rad, of the axis in one iteration
 _GAIN = 0.999  # of the residual, with which a step does: any gain beyond round-off
 _SHORTER = 0.3  # of a step that does not do: between 1/10 and 1/2 (Dennis and Schnabel 1983, 6.3.2)
 _TRIES = 8  # of a step: the last one is 0.3^7, 2e-4 of it (a choice)
-NEARLY = 10.0  # residuals to reach: as good, where no step gains any more (a choice)
+NEARLY = 10.0  # residuals to reach: as good, if no step gains any more (a choice)
 _SINGULAR = 1e-3  # of the restoring term's determinant, below which Newton sees none (a choice)
 _LARGEST_SEARCH = 3.0 * _LARGEST_TURN  # 17 degrees, beyond any neighbouring equilibrium (a choice)
 _FURTHER = 4.0  # times as far, until the zero is bracketed (a choice)
@@ -39,7 +39,7 @@ _SMALLEST_CIRCLE = 1e-6  # rad: a rim so close to the plate's axis has no circle
 
 @kernel
 def start_search(p: Props, old: State, w: Work) -> None:
-    """Set what a step alone decides: its share, the old z, the stiffness of the friction laws."""
+    """Set the values of a step alone: its share, the old z, the stiffness of the friction laws."""
     w.share = step_share(w.dt, old.step)
     w.first_decay[0], w.first_decay[1] = 0.0, 0.0
     w.varies = 0.0
@@ -145,10 +145,10 @@ def newton_turn(p: Props, old: State, w: Work) -> bool:
 
 @kernel
 def steepest_turn(p: Props, old: State, w: Work) -> bool:
-    """Turn the axis against the residual until its part along that direction vanishes.
+    """Rotate the axis against the residual until its part along that direction vanishes.
 
-    The safeguard where everything slides and Newton sees no stiffness: expand, then bisect
-    (Illinois). Returns whether there is a zero within the largest turn.
+    The safeguard if everything slides and Newton's matrix has no stiffness: expand, then bisect
+    (Illinois). Returns True if there is a zero within the largest rotation.
     """
     size = math.sqrt(w.residual[0] ** 2 + w.residual[1] ** 2)
     d_1, d_2 = -w.residual[0] / size, -w.residual[1] / size

@@ -1,7 +1,7 @@
 """Kernels of the level 'pendulum': the spin of the sliders that rims cause.
 
-The forces of the rims on the two sliders are offset by the slip. Their couple about the axis turns
-both sliders, against the torque of the surfaces' friction, and the slip turns with them
+The forces of the rims on the two sliders are offset by the slip. Their couple about the axis spins
+both sliders, against the torque of the surfaces' friction, and the slip rotates with them
 (docs/theory.md, section 2). The spin of a step is a third internal unknown beside the axis.
 """
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Props, State, Work
 
 _TORQUE = 2.0 / 3.0  # of friction on a disc that spins, over friction force and radius
-_SLOW = 3.0 / 8.0  # radius over 4 times that lever: where the disc slides and spins slowly (2.4)
+_SLOW = 3.0 / 8.0  # radius over 4 times that lever: for a disc that slides and spins slowly (2.4)
 _BENDS, _FAST, _BEFORE, _BLEND = 0.1545, 0.75, 0.78, 9.5  # within 3 % of the integral (2.4)
 _MOST, _FASTEST = 0.95, 6.0  # of the torque, and the edge's speed over the sliding's (choices)
 _MAX_SEARCH, _ENOUGH = 60, 1e-12  # iterations for a torque, and its relative error
@@ -63,7 +63,7 @@ def torque_of_spin(ratio: float) -> tuple[float, float]:
 def own_time(p: Props) -> float:
     """Return the time of the bearing's pendulum over that of an effective radius of 2 m.
 
-    Times and speeds without a law of their own follow it, so that what is similar moves alike.
+    Times and speeds without a law of their own follow it, so that similar bearings move equally.
     """
     return math.sqrt(p.length / _CHOSEN)
 
@@ -76,7 +76,7 @@ def slides_with(p: Props, old: State, k: int) -> float:
 
 @kernel
 def start_spin(p: Props, old: State, w: Work) -> None:
-    """Set what the step's start decides: centres of pressure, how one-sided the rims press."""
+    """Set the values at the step's start: centres of pressure, one-sidedness of the rims."""
     w.one_sided = one_sided(p, old)
     for k in range(2):
         w.shift[k, 0], w.shift[k, 1] = old.spin_arm[k, 0], old.spin_arm[k, 1]
@@ -84,7 +84,7 @@ def start_spin(p: Props, old: State, w: Work) -> None:
 
 @kernel
 def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
-    """Set the spin of the sliders in a step, and what it leaves of the surfaces' friction.
+    """Set the spin of the sliders in a step, and the remaining share of the surfaces' friction.
 
     Speeds and friction coefficients are those of the step's start.
     """
@@ -115,10 +115,10 @@ def torque(p: Props, old: State, w: Work, spin: float) -> tuple[float, float]:
 
 @kernel
 def one_sided(p: Props, old: State) -> float:
-    """Return how one-sided the rims press: 0 both alike, 1 as the axis alone has it.
+    """Return the one-sidedness of the rims: 0 equal pressure, 1 as for the axis alone.
 
-    A slider that rocks on its caps passes its load on to the other rim, since it rocks more easily
-    than a rim gives way. What the step starts from decides, so that nothing iterates.
+    A slider that rocks on its caps passes its load on to the other rim, because it rocks more
+    easily than a rim deforms. The start of the step decides, so that nothing iterates.
     """
     first = 0 if old.rim_force[0] >= old.rim_force[1] else 1
     push = old.rim_force[first]
@@ -183,7 +183,7 @@ def spin_against(p: Props, old: State, w: Work, couple: float) -> float:
 
 @kernel
 def centre_of_pressure(p: Props, w: Work, k: int) -> tuple[float, float]:
-    """Return where the pressure of surface `k` acts, from the axis: bottom e_1, top -e_2 (2.3)."""
+    """Return the centre of pressure of surface `k`, from the axis: bottom e_1, top -e_2 (2.3)."""
     a_1, a_2 = rim_moment(p, w, 0)
     b_1, b_2 = rim_moment(p, w, 1)
     return (
@@ -221,9 +221,9 @@ def plain_rate(w: Work, k: int, dw_1: float, dw_2: float) -> tuple[float, float]
 
 @kernel
 def spin_balance(p: Props, old: State, w: Work) -> float:
-    """Set the sum of the moments that spin the sliders (2.6) and return it over the axial force.
+    """Set the moments' sum that spins the sliders (2.6) and return it over the axial force.
 
-    With it what its derivative needs: centres of pressure and friction along the axis' sliding.
+    Sets also the input of its derivative: centres of pressure and friction along the axis' sliding.
     """
     s, f = w.sigma, w.phi_s
     couple = s[0] * f[1] - s[1] * f[0]
@@ -287,7 +287,7 @@ def rates_by_spin(p: Props, w: Work) -> None:
 
 @kernel
 def keep_spin(p: Props, old: State, w: Work, new: State) -> None:
-    """Keep in the record `new` what the next step needs of the spin."""
+    """Keep the spin's data for the next step in the record `new`."""
     new.spin = old.spin + w.spin
     new.spin_rate = w.spin / w.dt if w.dt > 0.0 else 0.0
     new.spin_couple = w.couple

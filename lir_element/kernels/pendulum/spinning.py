@@ -34,13 +34,13 @@ from lir_element.layout import SPIN_BALANCE
 if TYPE_CHECKING:
     from lir_element.layout import Props, State, Work
 
-_LEAST_STEP = 1e-6  # s: a shorter one, taken where no other succeeds, does not spin (a choice)
+_LEAST_STEP = 1e-6  # s: a shorter one, used if no other succeeds, does not spin (a choice)
 _MAX_ITERATIONS = 40
 _TOLERANCE = 1e-12  # of the largest torque
 _LARGEST_STEP = 0.1  # rad in one iteration (a choice)
 _LARGEST_SHIFT = 20.0  # yield displacements of the interface, of the slip in one (a choice)
 _LARGEST_SPIN = 1.0  # rad in one step: beyond it the couple has turned round (a choice)
-_FARTHEST = 10.0  # times what turning moves the slip: beyond it lies another equilibrium (a choice)
+_FARTHEST = 10.0  # times the slip's motion by rotation: beyond it is another equilibrium (a choice)
 _MOST_JOINT = 12  # iterations for axis and spin together
 _FROM_FIRST = 0.05  # rad from the spin that goes on: further, the search is bounded (a choice)
 _SMALLEST_STEP = 1e-15  # rad, round-off
@@ -75,7 +75,7 @@ def largest_step(p: Props, w: Work) -> float:
 
 @kernel
 def axis_for_spin(p: Props, old: State, w: Work, step: float) -> int:
-    """Change the spin by `step`, less where no axis is found; return the iterations, or -1."""
+    """Change the spin by `step`, less if no axis is found; return the iterations, or -1."""
     x, y, z, spin = w.n[0], w.n[1], w.n[2], w.spin
     s_1, s_2 = w.sigma[0], w.sigma[1]
     slip = math.sqrt(s_1 * s_1 + s_2 * s_2)
@@ -96,7 +96,7 @@ def axis_for_spin(p: Props, old: State, w: Work, step: float) -> int:
 
 @kernel
 def lacking(p: Props, w: Work, balance: float) -> float:
-    """Return what the equilibrium of axis and spin lacks, over axial force and length."""
+    """Return the residual of the equilibrium of axis and spin, over axial force and length."""
     return max(math.sqrt(residual_square(w)) / (w.n_hat * w.l), abs(balance) / p.slider_radius)
 
 
@@ -104,7 +104,7 @@ def lacking(p: Props, w: Work, balance: float) -> float:
 def round_off(p: Props, old: State, w: Work) -> float:
     """Return the round-off of the spin's balance over N: that of lengths under stiff laws.
 
-    As `square_to_reach` has it for the axis: friction over N is known to ``l mu / u_y`` times the
+    As in `square_to_reach` for the axis: friction over N is exact to ``l mu / u_y`` times the
     round-off of lengths, centres of pressure with it and with the forces of the rims.
     """
     more, _ = rubs_by(p, w.n_hat)
@@ -123,7 +123,7 @@ def round_off(p: Props, old: State, w: Work) -> float:
 
 @kernel
 def joint_step(p: Props, w: Work, balance: float) -> tuple[float, float, float]:
-    """Return Newton's step of axis and spin together: two turns and a spin; zeros where none is."""
+    """Return Newton's step of axis and spin together: two rotations and a spin; zeros if none."""
     w.spins = 1.0
     slider_jacobian(p, w)
     j = w.jacobian
@@ -146,9 +146,9 @@ def joint_step(p: Props, w: Work, balance: float) -> tuple[float, float, float]:
 def spin_with_axis(p: Props, old: State, w: Work) -> int:
     """Find the axis and the spin of a step together; return the iterations, or -1.
 
-    Newton's method in three unknowns from where slip and spin go on as in the last step. Where no
-    step gains any more, round-off does. It gives up where it does not settle quickly: then the spin
-    is found around the axis (`spin_sliders`).
+    Newton's method in three unknowns, starting from slip and spin extrapolated from the last step.
+    If no step gains any more, round-off is reached. It gives up if it does not converge quickly:
+    then the spin is found around the axis (`spin_sliders`).
     """
     first = 0.0 if p.fused else first_spin(p, old, w.dt)
     if first == 0.0 or max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
@@ -188,9 +188,9 @@ def spin_with_axis(p: Props, old: State, w: Work) -> int:
 def spin_sliders(p: Props, old: State, w: Work) -> None:
     """Find the spin of the sliders in the step and the axis that belongs to it.
 
-    The axis is in equilibrium at the spin that `w` has. Where spinning on raises the couple by more
-    than the torque, the step is too long for that: the spin is the one under the couple at its
-    start. Where none of the neighbouring spins has an axis, the last one that has is left.
+    The axis is in equilibrium at the spin of `w`. If more spin raises the couple by more than the
+    torque, the step is too long for that: the spin is the one under the couple at its start. If
+    none of the neighbouring spins has an axis, the last one with an axis remains.
     """
     if p.fused or (max(w.rim[0], w.rim[1]) == 0.0 and w.spin == 0.0):
         return

@@ -1,15 +1,15 @@
 """Kernels of the level 'pendulum': the bearing as a string between its sphere centres.
 
-With c from the bottom sphere's centre to the top one, n the slider's axis (internal unknown,
-two numbers), and t_1, t_2 the basis of the plane normal to n that turns with the bottom plate
-and has no spin about n (docs/theory.md):
+With c from the bottom sphere's centre to the top one, n the slider's axis (internal unknown, two
+numbers), and t_1, t_2 the basis of the plane normal to n that rotates with the bottom plate and has
+no spin about n (docs/theory.md):
 
     l     = -n . c                      string length; axial force N(l), never below zero   (1.1)
     s_a   = t_a . c                     slip of the interface                               (1.4)
     dw_k  = -R_k (turn of n against plate k)          sliding on the surfaces
     r_k   = R_k |horizontal part of n, axes of plate k|      radial sliding, rim at d_max
 
-The axis turns until virtual work vanishes for every turn ``eta`` of it:
+The axis rotates until virtual work vanishes for every rotation ``eta`` of it:
 
     -N s + (ds/d eta)' F_h - R_1 F_1 - R_2 F_2 + (rims) = 0.                             (2.1)
 
@@ -38,7 +38,7 @@ from lir_element.kernels.slip import (
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
 
-_FAR = 0.99  # of the square of the way to a rim: short of it there is none, round-off or not
+_FAR = 0.99  # of the square of the rim displacement: below it no contact, round-off or not
 _UPRIGHT = 1e-40  # m2: an axis whose horizontal part over the string's length is round-off
 
 
@@ -92,7 +92,7 @@ def turn_axis(w: Work, x: float, y: float, z: float, eta_1: float, eta_2: float)
 
 @kernel
 def aim_axis(p: Props, old: State, w: Work, kept: float) -> None:
-    """Set the axis that keeps the slip as it was: the exact axis where the interface is fused.
+    """Set the axis that keeps the old slip: the exact axis if the interface is fused.
 
     With a share `kept` of its hysteretic variable other than one, the axis that keeps its z.
     """
@@ -134,9 +134,9 @@ def aim_slip(w: Work, s_1: float, s_2: float) -> None:
 
 @kernel
 def aim_on(p: Props, old: State, w: Work) -> None:
-    """Set the axis that goes on slipping as in the last step, elastically or not.
+    """Set the axis that continues the slip of the last step, elastic or not.
 
-    The exact axis where the interface is fused; the slip that was where there is no last step.
+    The exact axis if the interface is fused; the old slip if there is no last step.
     """
     if p.fused or w.dt == 0.0 or old.step == 0.0:
         aim_axis(p, old, w, 1.0)
@@ -194,7 +194,7 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
         w.old[k, a] = w.t[a, 0] * m[0] + w.t[a, 1] * m[1] + w.t[a, 2] * m[2]
         w.dw[k, a] = p.radius[k] * w.old[k, a]  # (1.6), (1.7)
     w.old[k, 2] = w.n[0] * m[0] + w.n[1] * m[1] + w.n[2] * m[2]
-    d_1 = w.dw[k, 0] - w.spin * w.shift[k, 1]  # where the pressure is
+    d_1 = w.dw[k, 0] - w.spin * w.shift[k, 1]  # at the centre of pressure
     d_2 = w.dw[k, 1] + w.spin * w.shift[k, 0]
     w.rubbed[k, 0], w.rubbed[k, 1] = d_1, d_2
     before = old.sliding_increment[k]
@@ -240,10 +240,10 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
 
 @kernel
 def preloaded(p: Props, old: State, w: Work) -> tuple[float, float, float, float, float]:
-    """Return how a preload of the interface changes its friction.
+    """Return the effect of a preload of the interface on its friction.
 
-    The share of z that the axial force leaves, its derivative, 2 over one more than it; the load
-    that the interface rubs by over the axial force, and how fast friction over N falls by that.
+    The share of z that the axial force leaves, its derivative, 2 over one more than it; the
+    interface's friction load over the axial force, and the fall of friction over N by that.
     """
     more, load = rubs_by(p, w.n_pos)
     if p.fixed_load > 0.0:
@@ -308,7 +308,7 @@ def interface(p: Props, old: State, w: Work) -> None:
 
 @inlined_by_llvm
 def rims(p: Props, old: State, w: Work) -> None:
-    """Set the rim forces of both plates; their directions where one of the rims is met.
+    """Set the rim forces of both plates; their directions if there is rim contact.
 
     A rigid slider that is lifted by more than its height is no longer between the rims.
     """
@@ -329,7 +329,7 @@ def rims(p: Props, old: State, w: Work) -> None:
     w.n_hor[0], w.n_hor[1] = math.sqrt(bottom), math.sqrt(top)  # (1.8)
     for k in range(2):
         gap = -math.inf if away else p.radius[k] * w.n_hor[k] - p.rim_displacement[k]
-        x, y = (-w.n[0], -w.n[1]) if k == 0 else (y_1, y_2)  # where the slider is
+        x, y = (-w.n[0], -w.n[1]) if k == 0 else (y_1, y_2)  # position of the slider
         (
             w.rim[k],
             w.stiff_rim[k],
@@ -356,8 +356,8 @@ def rims(p: Props, old: State, w: Work) -> None:
 def evaluate(p: Props, old: State, w: Work) -> None:
     """Set all forces at the current axis and the residual of the slider's equilibrium.
 
-    Two pieces part where they carry no axial force, and pass nothing; a rigid slider between its
-    rims still passes what they press.
+    Two pieces separate without axial force, and have no forces; a rigid slider between its rims
+    still transfers the rims' force.
     """
     axial(p, old, w)
     surface(p, old, w, 0)
@@ -372,7 +372,7 @@ def evaluate(p: Props, old: State, w: Work) -> None:
     n = w.n_pos if p.fused else w.n_hat
     for a in range(2):
         w.residual[a] = -n * w.drag[a] + w.push[a]  # (2.1)
-    if p.fused:  # the interface carries what equilibrium asks for
+    if p.fused:  # the interface has the force of equilibrium
         w.rim_scale = 1.0
         for a in range(2):
             w.f_s[a] = -w.residual[a] / w.l

@@ -1,9 +1,9 @@
 """Kernels of the level 'pendulum': derivatives of its residual and forces, and the tangent.
 
-Three kernels take the derivative: by a turn `eta` of the slider's axis, by a shift `d` of the top
-sphere's centre, by a spin of the top plate. Shifts and spins have the components along the slider's
-own axes (t_1, t_2, n), where most terms vanish. The slider's jacobian and the condensed tangent are
-made of them. docs/theory.md derives each line.
+Three kernels give the derivative: by a rotation `eta` of the slider's axis, by a shift `d` of the
+top sphere's centre, by a spin of the top plate. Shifts and spins have the components along the
+slider's own axes (t_1, t_2, n), in which most terms vanish. The slider's jacobian and the condensed
+tangent consist of them. docs/theory.md derives each line.
 """
 
 from __future__ import annotations
@@ -161,11 +161,11 @@ def balance_rate(
 
 @inlined_by_llvm
 def by_turn(p: Props, w: Work, a: int) -> Rates:
-    """Return the derivatives by a turn of the slider's axis towards t_1 (0) or t_2 (1).
+    """Return the derivatives by a rotation of the slider's axis towards t_1 (0) or t_2 (1).
 
-    Of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin of the basis, balance. Where the
-    interface is fused its force is left out: it follows from the residual. The balance is that of
-    the moments that spin the sliders, zero where the spin is no unknown.
+    Derivatives of residual (2), N, F_h (2), F_2 (2), top rim (1 + 3), spin of the basis, balance.
+    If the interface is fused, its force is left out: it follows from the residual. The balance is
+    that of the moments that spin the sliders, zero if the spin is no unknown.
     """
     k = w.lean
     s_1, s_2 = w.sigma[0], w.sigma[1]
@@ -351,7 +351,7 @@ def slider_jacobian(p: Props, w: Work) -> None:
 
 @inlined_by_llvm
 def column(p: Props, w: Work, col: int, rates: Rates, d_1: float, d_2: float, d_3: float) -> None:
-    """Set column `col` of the condensed stiffness from what a shift `d`, or a spin, changes.
+    """Set column `col` of the condensed stiffness from the derivatives by a shift `d`, or a spin.
 
     The axis follows: it stays in equilibrium; that of a rigid slider stays the line of the centres.
     """

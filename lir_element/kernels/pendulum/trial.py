@@ -1,4 +1,4 @@
-"""Kernels of the level 'pendulum': the state determination (trial) and what a commit does.
+"""Kernels of the level 'pendulum': the state determination (trial), and the commit.
 
 `trial` reads the committed record `old`, never writes it, and fills the record `new`; calling it
 twice gives the same bits. To commit: `accumulate`, then `copy_words` of the new record.
@@ -38,9 +38,9 @@ _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 _SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
 _UPLIFT_EXCEEDED = int(RunStatus.UPLIFT_EXCEEDED)
 _NEAR_END = 0.9  # of the last slip: a search that fails from beyond it has met it (a choice)
-_BEYOND_END = 1.001  # of it: what is found further on lies on the far side; 0.1 % for the estimate
+_BEYOND_END = 1.001  # of it: results further on are on the far side; 0.1 % for the estimate
 _SNAPS = 0.97
-"""Of the slip beyond which there is no equilibrium: nearer to it a search that fails has met it."""
+"""Share of the slip limit of equilibrium above which a failed search has met the limit."""
 _STARTS = (0.9, 0.5, 1.0, 0.75)  # by trial: none of 19,200 random trials near rims stayed unsolved
 SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
 
@@ -134,7 +134,7 @@ def keep_works(old: State, new: State) -> None:
 
 @kernel
 def set_state(p: Props, old: State, w: Work, new: State) -> None:
-    """Fill what the record keeps of the sliders."""
+    """Fill the sliders' part of the record."""
     n, t, q = w.n, w.t, w.q_i
     for a in range(3):
         new.axis[a] = n[a]
@@ -209,12 +209,13 @@ def is_finite(x: Floats) -> bool:
 
 @kernel
 def last_slip(p: Props, at: State) -> float:
-    """Return the slip at which equilibrium ends in a state: ``L mu_h + mu_1 R_1 + mu_2 R_2``.
+    """Return the slip limit of equilibrium in a state [m]: ``L mu_h + mu_1 R_1 + mu_2 R_2``.
 
     The load that the interface rubs by counts with mu_h, over the axial force.
 
     The axial force drives the slip on with ``N s``, both frictions resist: beyond that slip the
-    slider leaves the rim, and the only equilibrium left is far away (docs/theory.md, section 2).
+    slider leaves the rim, and the only remaining equilibrium is far away (docs/theory.md, section
+    2).
     """
     mu = at.friction_coefficient
     more, _ = rubs_by(p, at.axial_force)
@@ -241,7 +242,7 @@ def has_snapped(p: Props, old: State, new: State, count: int) -> bool:
 
 @kernel
 def solve_with_share(p: Props, old: State, w: Work) -> int:
-    """Search the axis from where the interface's z stays, though the axial force changes much."""
+    """Search the axis from an unchanged z of the interface, though the axial force changes much."""
     aim_axis(p, old, w, 1.0)
     evaluate(p, old, w)
     aim_axis(p, old, w, w.kept)
@@ -252,7 +253,7 @@ def solve_with_share(p: Props, old: State, w: Work) -> int:
 def solve_from_elsewhere(p: Props, old: State, w: Work) -> int:
     """Search the axis again from between the committed one and the one that keeps the slip.
 
-    Where the slider leaves a rim and slip turns round, the laws of friction make the equilibrium
+    When the slider leaves a rim and slip reverses, the laws of friction make the equilibrium
     unsymmetric, and a search may run in circles; from another start it does not.
     """
     count = -1
@@ -301,7 +302,7 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
     w.dt = max(time - old.time, 0.0)
     start_search(p, old, w)
     start_spin(p, old, w)
-    if w.dt == 0.0:  # at the committed place: the tangent needs no derivative of it
+    if w.dt == 0.0:  # at the committed place: the tangent needs no derivative by it
         place_plates(p, w, old.displacement)
         set_axis(w, old.axis[0], old.axis[1], old.axis[2])
         static_speeds(p, w, v)

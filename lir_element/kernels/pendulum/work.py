@@ -48,10 +48,10 @@ def rim_work(p: Props, at: State, old: State, new: State, k: int) -> float:
 
 @kernel
 def contact_defect(p: Props, old: State, new: State) -> float:
-    """Return the energy that the contacts make or lose in the step by its size alone.
+    """Return the energy that the contacts gain or lose in the step by its size alone.
 
-    Works of open contacts, and what a rim gives beyond what it had stored, as one does along which
-    a slider runs in large steps.
+    Works of open contacts, and a rim's release beyond its stored energy, for example if a slider
+    runs along it in large steps.
     """
     defect = 0.0
     if p.fixed_load == 0.0:
@@ -61,7 +61,7 @@ def contact_defect(p: Props, old: State, new: State) -> float:
     for k in range(2):
         if old.rim_force[k] == 0.0 and new.rim_force[k] == 0.0:
             continue
-        if old.rim_dent[k, 0] == math.inf:  # broken in the step before: what it held is lost
+        if old.rim_dent[k, 0] == math.inf:  # broken in the step before: its force is lost
             continue
         radial = new.eccentricity[k] - old.eccentricity[k] - new.rim_flow[k]
         before, after = old.rim_closure[k], new.rim_closure[k]
@@ -73,11 +73,11 @@ def contact_defect(p: Props, old: State, new: State) -> float:
 
 @kernel
 def taken(old: State, new: State, side: int, work: float) -> float:
-    """Return the dissipated part of the work that friction takes over the slipped part of a step.
+    """Return the dissipated part of friction's work over the slipped part of a step.
 
-    Where slip turns round within a step the trapezoidal rule may make that work negative, by about
-    what the friction force does in a fraction of the step. It is owed until the next slip pays it,
-    so that what is dissipated never falls.
+    If slip reverses within a step, the trapezoidal rule may make that work negative, by about the
+    friction force's work in a fraction of the step. The deficit is carried until the next slip
+    covers it, so that the dissipation never falls.
     """
     due = old.work_owed[side] + work
     paid = max(due, 0.0)
@@ -132,7 +132,7 @@ def interface_energy(p: Props, at: State) -> float:
 def interface_work(p: Props, old: State, new: State) -> float:
     """Return the work of the interface's friction over the step.
 
-    What the interface holds beyond it, while the bearing is pulled, is the contact's.
+    The interface's force beyond it, while the bearing is pulled, is the contact's.
     """
     before = p.interface_friction * rubbing_load(p, old.axial_force)
     after = p.interface_friction * rubbing_load(p, new.axial_force)
@@ -154,9 +154,9 @@ def twist_energy(p: Props, at: State) -> float:
 
 @kernel
 def together(a: float, b: float, c: float) -> tuple[float, float, float]:
-    """Return the works of three contacts with the same sum, none below zero where the sum is not.
+    """Return the works of three contacts with the same sum, none negative unless the sum is.
 
-    What spinning sliders pass on from contact to contact is theirs together.
+    Spinning sliders exchange work between contacts: it counts together.
     """
     least, total = min(a, b, c), a + b + c
     if least >= 0.0 or total <= 0.0:
@@ -170,9 +170,9 @@ def together(a: float, b: float, c: float) -> tuple[float, float, float]:
 def accumulate(p: Props, old: State, new: State) -> None:
     """Add the works and paths of the step from `old` to `new` to those of `new`.
 
-    Works by the trapezoidal rule: over the step they sum to that of the nodes' forces (exactly
-    so for the stiff contacts, whose forces jump). What friction takes beyond its elastic energy
-    is dissipated.
+    Works by the trapezoidal rule: over the step they sum to that of the nodes' forces (exactly so
+    for the stiff contacts, whose forces jump). The work of friction beyond its elastic energy is
+    dissipated.
     """
     gain = twist_energy(p, new) - twist_energy(p, old)
     turned = 0.5 * (old.torque + new.torque) * (new.twist - old.twist) - gain

@@ -1,7 +1,7 @@
-"""Kernels that take the level 'rigid_body' through time: step control, works, output.
+"""Kernels of the time loop of the level 'rigid_body': step control, works, output.
 
-Each step is taken once whole and once in two halves; the difference is its error, the halves are
-kept. Nothing is assumed of the smoothness of what happens in between.
+Each step is computed once whole and once in two halves; the difference is its error, the halves are
+kept. This assumes no smoothness in between.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _STEP_TOO_SMALL = int(RunStatus.STEP_TOO_SMALL)
 _SAFETY = 0.9  # of the step that would just do; there, too
 _LEAST, _MOST = 0.2, 2.0  # of the step before; a cautious 2 of their 1.5 to 5
 _SMALL = 0.06  # of the allowed error: below it the step grows by the most, also of no error
-_FAILED = 8.0  # allowed errors that a step without a solution counts for: 0.45 of it is next
+_FAILED = 8.0  # allowed errors that a step without a solution counts as: the next is 0.45 of it
 
 
 @kernel
@@ -152,7 +152,7 @@ def implicit(
     dt: float,
     output: int,
 ) -> bool:
-    """Take one implicit step from the bodies `start` to `end`, which is reached at `time`."""
+    """Compute one implicit step from the bodies `start` to `end`, at the time `time`."""
     set_instant(run, given, time, dt, output)
     return implicit_step(body_step(run, start, end), run, setup, dt)
 
@@ -206,7 +206,7 @@ def adaptive(run: RigidRun, given: RigidInput, setup: RigidSetup, output: int) -
 
 @kernel
 def explicit_pair(run: RigidRun, given: RigidInput, setup: RigidSetup, output: int) -> int:
-    """Take two of the equal explicit steps towards the given `output`; return a status code."""
+    """Compute two of the equal explicit steps towards `output`; return a status code."""
     clock, counts = run.clock[0], run.counts[0]
     begin, end = given.times[output - 1], given.times[output]
     parts = 2 * max(1, math.ceil(0.5 * (end - begin) / setup.explicit))
@@ -260,9 +260,9 @@ def start(run: RigidRun, given: RigidInput) -> None:
 def integrate_bodies(
     run: RigidRun, given: RigidInput, setup: RigidSetup, last: int, tries: int
 ) -> int:
-    """Go on until `last` outputs are written, or `tries` steps were tried; return a status code.
+    """Integrate until `last` outputs are written, or `tries` steps tried; return a status code.
 
-    ``run.clock`` and ``run.counts`` tell where it stands, and the next call goes on from there.
+    ``run.clock`` and ``run.counts`` have the progress, and the next call continues from there.
     """
     clock, counts = run.clock[0], run.counts[0]
     most = counts.tries + tries

@@ -1,9 +1,9 @@
 """Kernels of the level 'rigid_body': the paper's model, 18 degrees of freedom in time.
 
-Three moving bodies (bottom slider, top slider, top plate) of six degrees of freedom each; what
-acts on them are the contact pairs of `kernels.contact.pairs`. One step is Bossak's member of the
-generalised-alpha family (Wood, Bossak and Zienkiewicz 1981), solved by Newton's method; an
-explicit step is there to check it. docs/theory.md, section 8.
+Three moving bodies (bottom slider, top slider, top plate) of six degrees of freedom each, with the
+forces of the contact pairs of `kernels.contact.pairs`. One step is Bossak's member of the
+generalised-alpha family (Wood, Bossak and Zienkiewicz 1981), solved by Newton's method; an explicit
+step is there to check it. docs/theory.md, section 8.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Bodies, Floats, Scratch
 
 _MAX_ITERATIONS = 25
-_TRIES = 4  # of a step: the last one, 0.35^3 or 4 % of it, is taken as it is (a choice)
+_TRIES = 4  # of a step: the last one, 0.35^3 or 4 % of it, is accepted (a choice)
 
 
 @kernel
@@ -136,7 +136,7 @@ def set_matrix(run: RigidRun, w: Scratch, setup: RigidSetup, dt: float) -> None:
 
 @kernel
 def move_bodies(old: Bodies, new: Bodies, w: Scratch, factor: float) -> None:
-    """Move all bodies by `factor` times ``w.step`` from where the iteration began."""
+    """Move all bodies by `factor` times ``w.step`` from the start of the iteration."""
     for k in range(3):
         for a in range(3):
             w.shift[3 * k + a] = w.try_shift[3 * k + a] + factor * w.step[6 * k + a]
@@ -152,7 +152,7 @@ def move_bodies(old: Bodies, new: Bodies, w: Scratch, factor: float) -> None:
 
 @kernel
 def predict(s: BodyStep, run: RigidRun, dt: float) -> None:
-    """Start the step where the velocities lead; driven degrees of freedom go to their place."""
+    """Start the step by the velocities; driven degrees of freedom go to their place."""
     old, new, w, free = s.old, s.new, s.scratch, run.free
     for k in range(3):
         for a in range(3):
@@ -186,7 +186,7 @@ def small_enough(s: BodyStep, run: RigidRun, dt: float) -> float:
 
 @kernel
 def newton_direction(new: Bodies, w: Scratch) -> float:
-    """Set ``w.step`` of all bodies; return how much of it to try first, 0 where it is singular."""
+    """Set ``w.step`` of all bodies; return the first factor to try, 0 if it is singular."""
     for row in range(18):
         w.right[row, 0] = w.residual[row]
     if not solve_many(w.system, w.right, 18, 1):
@@ -198,7 +198,7 @@ def newton_direction(new: Bodies, w: Scratch) -> float:
 
 @kernel
 def implicit_step(s: BodyStep, run: RigidRun, setup: RigidSetup, dt: float) -> bool:
-    """Take one implicit step from `s.old` to `s.new`; return whether Newton's method converged."""
+    """Compute one implicit step from `s.old` to `s.new`; return True if Newton converged."""
     old, new, w = s.old, s.new, s.scratch
     predict(s, run, dt)
     size = residual_of(s, run, setup, dt)
@@ -225,7 +225,7 @@ def implicit_step(s: BodyStep, run: RigidRun, setup: RigidSetup, dt: float) -> b
 
 @kernel
 def explicit_step(s: BodyStep, run: RigidRun, dt: float) -> None:
-    """Take one explicit step (semi-implicit Euler) from the forces of `s.old`.
+    """Compute one explicit step (semi-implicit Euler) from the forces of `s.old`.
 
     ``old.acceleration`` and ``old.spin_rate`` are those of the forces there.
     """

@@ -93,7 +93,7 @@ SHARED_FIELDS = (
     Field("record", "", "", "address of the recorded states", (), _ADDRESS),
     Field("realloc", "", "", "address of the function that enlarges memory", (), _ADDRESS),
 )
-"""What both routes use."""
+"""Fields of both routes."""
 
 FAST_FIELDS = (
     Field("node_i", "", "", "address of the node below", (), _ADDRESS),
@@ -139,7 +139,7 @@ FAST_FIELDS = (
     Field("messages", "", "", "addresses of the messages by number", (MESSAGES,), _ADDRESS),
     Field("message_sizes", "", "", "their lengths", (MESSAGES,), "i8"),
 )
-"""What the callbacks of in-process coupling use besides."""
+"""Further fields of the callbacks of in-process coupling."""
 
 FROM_DISPLACEMENT = -1
 FROM_FORCE = -2
@@ -208,8 +208,8 @@ GuardBlock: TypeAlias = Any
 """One record of dtype GUARD."""
 
 # Messages of a `genericClient` are vectors of float64 whose first entry names the action. Source:
-# OpenSees documentation of the element, OpenFresco's remote test protocol, and what the stock
-# builds send (the header first: eleven int32, the first the number of degrees of freedom, the last
+# OpenSees documentation of the element, OpenFresco's remote test protocol, and the messages of the
+# stock builds (the header first: eleven int32, the first the number of degrees of freedom, the last
 # the length of all vectors).
 SET_TRIAL = 3
 COMMIT = 5

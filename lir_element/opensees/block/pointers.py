@@ -1,7 +1,7 @@
 """Memory and functions by their address, for compiled code that OpenSees calls.
 
 Addresses are passed as int64, never compiled in: a compiled callback can be kept in the cache and
-used by another process, where everything lies elsewhere.
+used by another process, in which all addresses differ.
 """
 
 from __future__ import annotations

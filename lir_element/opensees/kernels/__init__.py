@@ -1,1 +1,1 @@
-"""Compiled kernels of the plug-in: what OpenSees calls, and what it calls of ours."""
+"""Compiled kernels of the plug-in: functions that OpenSees calls, and calls to OpenSees."""

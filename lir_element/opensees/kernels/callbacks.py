@@ -1,4 +1,4 @@
-"""What OpenSees calls in place of the host element's own functions, the same at every level.
+"""Functions that OpenSees calls instead of the host element's own, the same at every level.
 
 Every function takes the address of the element first, as C++ methods do; `restart`, which the
 out-of-process coupling calls, takes that of the block.
@@ -47,7 +47,7 @@ FIRST_RESPONSE = 1000
 _RESPONSE_BYTES = 1024
 _STDERR = 2
 _JSON = 25000
-"""How OpenSees asks for a model's JSON (`OPS_PRINT_PRINTMODEL_JSON`)."""
+"""Flag by which OpenSees requests a model's JSON (`OPS_PRINT_PRINTMODEL_JSON`)."""
 
 
 @entry_point("int64(int64)")
@@ -70,12 +70,12 @@ def zero_matrix(element: int) -> int:
 
 @entry_point("int32(int64)")
 def revert_to_last_commit(element: int) -> int:
-    """Forget the trial of a step that failed."""
+    """Drop the trial of a step that failed."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     if h.refused != 0:
         h.failures += 1
     host_revert(h)
-    if h.last_status == 0:  # what was committed is no cause
+    if h.last_status == 0:  # the committed state is no cause
         give_hint(h)
     return 0
 
@@ -104,7 +104,7 @@ def update_remote(element: int) -> int:
 
 @entry_point("int32(int64)")
 def commit_remote(element: int) -> int:
-    """Let the other process commit the state at the motion that is committed."""
+    """Commit the state at the committed motion in the other process."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     if read_committed_motion(h):
         call_host(h, h.host_update, element)
@@ -135,7 +135,7 @@ def force_remote(element: int) -> int:
 
 @entry_point("int32(int64)")
 def revert_remote(element: int) -> int:
-    """Do what there is to do in the model's process where another one determines the states."""
+    """Revert in the model's process if another one determines the states."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     give_hint(h)
     return 0
@@ -155,20 +155,20 @@ def class_type(element: int) -> int:
 
 @entry_point("int32(int64)")
 def revert_to_start(element: int) -> int:
-    """Bring the bearing back to its start."""
+    """Reset the bearing to its start."""
     host_restart(carray(pointer(block_of(element)), 1, HOST)[0])
     return 0
 
 
 @entry_point("void(int64)")
 def restart(block: int) -> None:
-    """Bring the bearing back to its start."""
+    """Reset the bearing to its start."""
     host_restart(carray(pointer(block), 1, HOST)[0])
 
 
 @entry_point("void(int64)")
 def destroy(element: int) -> None:
-    """Let the block know that the element is gone, and destroy it."""
+    """Mark the element as gone in the block, and destroy it."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     h.alive = 0
     set_word(element, h.host_table)
@@ -186,7 +186,7 @@ def destroy_free(element: int) -> None:
 
 @entry_point("int64(int64, int64, int32, int64)")
 def set_response(element: int, words: int, count: int, stream: int) -> int:
-    """Return a new Response for a recorder that asks for `words`; 0 where there is none."""
+    """Return a new Response for a recorder's `words`; 0 if there is none."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     place = find_response(h, word_at(words)) if count > 0 else -1
     if place < 0:
@@ -199,7 +199,7 @@ def set_response(element: int, words: int, count: int, stream: int) -> int:
 
 @entry_point("int32(int64, int32, int64)")
 def get_response(element: int, number: int, information: int) -> int:
-    """Hand a response over to a recorder."""
+    """Write a response to a recorder."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     if number < FIRST_RESPONSE:
         return call_with_int(h.host_get_response, element, number, information)

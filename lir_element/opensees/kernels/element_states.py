@@ -55,7 +55,7 @@ if TYPE_CHECKING:
 
 _OK = int(RunStatus.OK)
 _NOT_FINITE = int(RunStatus.NOT_FINITE)
-_TELLINGS = 10  # refusals that are told of a bearing
+_TELLINGS = 10  # refusals of a bearing with a message
 _FAR = 8.0  # axial force over the design load, or the reverse: g, kN and kip are further
 _TOUCH_WORDS = TOUCH.itemsize // 8
 
@@ -175,10 +175,10 @@ def host_retry(h: Host, contacts: Contacts | None) -> None:
 
 @kernel
 def stand(h: Host, code: int, force: Floats) -> int:
-    """Stay with the committed force and tangent where a step begins without a state.
+    """Keep the committed force and tangent if a step begins without a state.
 
-    Newmark's method begins a step at the committed place with velocities turned round, which no
-    motion of the sliders need go with. Such a trial cannot be committed.
+    Newmark's method begins a step at the committed place with reversed velocities, and no motion of
+    the sliders may fit them. That trial cannot be committed.
     """
     h.last_status = code
     h.element_made, h.has_tangent = 0, 2
@@ -188,7 +188,7 @@ def stand(h: Host, code: int, force: Floats) -> int:
 
 @kernel
 def refuse(h: Host, code: int) -> int:
-    """Keep why a trial has no state, and that the user is to be told: once a step."""
+    """Keep the reason that a trial has no state, and request a message: once a step."""
     h.last_status = code
     h.element_made = 0
     if h.refused == _OK:
@@ -248,7 +248,7 @@ def host_tangent(h: Host, contacts: Contacts | None) -> None:
 def host_commit(h: Host, contacts: Contacts | None) -> None:
     """Accept the trial state, and record it if it is its turn.
 
-    A trial without a state is not accepted, whatever OpenSees makes of it.
+    A trial without a state is not accepted, for any action of OpenSees.
     """
     if h.last_status != _OK:
         return
@@ -310,7 +310,7 @@ def record_state(h: Host) -> None:
 
 @kernel
 def host_revert(h: Host) -> None:
-    """Forget the trial: the next one starts from the committed state."""
+    """Drop the trial: the next one starts from the committed state."""
     copy_words(
         carray(pointer(h.old), STATE_WORDS, WORDS), carray(pointer(h.new), STATE_WORDS, WORDS)
     )
@@ -323,7 +323,7 @@ def host_revert(h: Host) -> None:
 
 @kernel
 def host_restart(h: Host) -> None:
-    """Bring the bearing back to its start: undeformed and unloaded."""
+    """Reset the bearing to its start: undeformed and unloaded."""
     copy_words(
         carray(pointer(h.first), STATE_WORDS, WORDS), carray(pointer(h.old), STATE_WORDS, WORDS)
     )

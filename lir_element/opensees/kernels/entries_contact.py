@@ -1,4 +1,4 @@
-"""What C calls for a bearing at the level 'contact'; compiled (or taken from the cache) on import.
+"""Entries from C for a bearing at level 'contact'; compiled (or read from the cache) on import.
 
 `trial`, `tangent`, `commit` take the address of the bearing's block. `update`, `commit_state`,
 `tangent_stiff` take the host element (in-process coupling).
@@ -50,7 +50,7 @@ def commit(block: int) -> None:
 
 @entry_point("int32(int64)")
 def update(element: int) -> int:
-    """Determine the state at the nodes' trial motion; 0, or what `fail` says."""
+    """Determine the state at the nodes' trial motion; return 0, or the code of `fail`."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     dt = read_motion(h)
     code = host_trial(h, contacts_at(h), dt)

@@ -57,7 +57,7 @@ def tell(g: GuardBlock) -> None:
 
 @kernel
 def answer_requests(g: GuardBlock, told: bool) -> None:
-    """Answer whatever the model asks, until the guard is to stop; told: a request may wait."""
+    """Answer requests of the model until the guard must stop; told: a request may wait."""
     count = g.channels.shape[0]
     waiting = told
     while True:

@@ -36,7 +36,7 @@ _PATIENCE = 2  # refused steps in a row
 _SAME_STEP = 1e-6  # of its length: times far from zero have round-off
 HASH_START = -3750763034362895579
 HASH_FACTOR = 1099511628211
-"""Of the hash of a response's name: Fowler, Noll, Vo (1a), 64 bits."""
+"""Factor of the hash of a response's name: Fowler, Noll, Vo (1a), 64 bits."""
 
 
 @kernel
@@ -82,7 +82,7 @@ def read_velocities(h: Host) -> bool:
 def read_motion(h: Host) -> float:
     """Set the block's motion to the nodes' trial motion; returns the step since the commit.
 
-    The step is 0 where an integrator sets the domain's time after its trials.
+    The step is 0 if an integrator sets the domain's time after its trials.
     """
     read_displacements(h)
     read_velocities(h)
@@ -94,10 +94,10 @@ def read_motion(h: Host) -> float:
 
 @kernel
 def read_committed_motion(h: Host) -> bool:
-    """Set the block's motion and step to those that the domain commits.
+    """Set the block's motion and step to those of the domain's commit.
 
-    Returns whether they are others than those of the last trial. Methods with an alpha or a theta
-    try states within the step or beyond it, explicit ones set the time later, some move the nodes
+    Returns True if they differ from those of the last trial. Methods with an alpha or a theta try
+    states within the step or beyond it, explicit ones set the time later, some move the nodes
     without a trial: only at the commit do displacement, velocity and time belong together.
     """
     moved = read_displacements(h)
@@ -115,18 +115,18 @@ def read_committed_motion(h: Host) -> bool:
 
 @kernel
 def tell(h: Host) -> None:
-    """Write what the last trial has to tell to standard error."""
+    """Write the message of the last trial to standard error."""
     if h.telling != 0:
         call_write(h.write, _STDERR, h.messages[h.telling], h.message_sizes[h.telling])
 
 
 @kernel
 def fail(h: Host) -> int:
-    """Return what an update without a state returns: -1, and 0 where that did not end it.
+    """Return the code of an update without a state: -1, and 0 if that did not end it.
 
-    `VariableTransient` shortens its steps by the number of iterations alone. A step that fails
-    before any is tried again with the same length for ever; so that after two of them the forces
-    are no numbers, and the test of convergence counts.
+    `VariableTransient` shortens its steps by the number of iterations alone. It repeats a step that
+    fails before any iteration with the same length for ever. After two of them the forces are
+    therefore no numbers, and the test of convergence counts.
     """
     if h.failures < _PATIENCE:
         return -1
@@ -137,7 +137,7 @@ def fail(h: Host) -> int:
 
 @kernel
 def give_hint(h: Host) -> None:
-    """Tell once in a process what a step that failed may suffer from."""
+    """Write the probable cause of a failed step, once in a process."""
     word = carray(pointer(h.hinted), 1, WORDS)
     if word[0] == 0 and h.symmetric == 0:
         word[0] = 1

@@ -1,12 +1,12 @@
-"""Kernels that keep Newton's method from swinging to and fro across a rim.
+"""Kernels that keep Newton's method from cycling across a rim.
 
-Where an interface slips soon after a rim is met, the force over the displacement is flat, steep
-over some tenths of a millimetre, and flat again. From either flat part Newton's method jumps across
-the steep one, for ever. What a correction left over at this bearing is its force less the linear
-prediction; if the last corrections went to and fro without getting smaller, the solution lies
-between, and a stiffness along the way, ``left over / distance between``, halves the next
-correction. Before that, a correction back is kept within `_REACH` times the displacement of the
-step. Both vanish with what is left over: solutions are the same, and so is the rate near them.
+If an interface slips soon after rim contact, the force over the displacement is flat, steep over
+some tenths of a millimetre, and flat again. From either flat part Newton's method jumps across the
+steep one, for ever. The residual of a correction at this bearing is its force less the linear
+prediction. If the last corrections alternate without getting smaller, the solution is between, and
+a stiffness along the line, ``left over / distance between``, halves the next correction. Before
+that, a correction back is kept within `_REACH` times the displacement of the step. Both vanish with
+the residual: solutions are the same, and so is the rate near them.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def follow_iteration(h: Host, force: Floats) -> None:
 
 @kernel
 def set_left_over(h: Host, force: Floats) -> None:
-    """Set what the last correction left over: the force on node j less what was foretold."""
+    """Set the residual of the last correction: the force on node j less the prediction."""
     for a in range(3):
         foretold = h.last_force[6 + a]
         for k in range(12):
@@ -77,7 +77,7 @@ def set_left_over(h: Host, force: Floats) -> None:
 
 @kernel
 def pushed_back(h: Host) -> float:
-    """Return what is left over along the way once the axial force has found its balance [N]."""
+    """Return the residual along the line once the axial force has found its balance [N]."""
     total = 0.0
     axial = h.element[8, 8]
     share = h.left_over[2] / axial if axial > 0.0 else 0.0
@@ -88,9 +88,9 @@ def pushed_back(h: Host) -> float:
 
 @kernel
 def narrow(h: Host) -> float:
-    """Narrow down where the solution lies; returns the stiffness that keeps the iteration there.
+    """Bracket the solution; returns the stiffness that keeps the iteration in the bracket.
 
-    It gives up (and returns 0) where that makes no sense.
+    It gives up (and returns 0) if no bracket exists.
     """
     if h.swings == _ENOUGH:  # the last two positions
         size = math.hypot(h.move[0], h.move[1])
@@ -117,10 +117,10 @@ def narrow(h: Host) -> float:
 
 @kernel
 def restrain(h: Host) -> float:
-    """Return the stiffness that keeps a correction from leading far behind the step's start.
+    """Return the stiffness that keeps a correction from going far behind the step's start.
 
-    Beyond the rim the bearing's own stiffness may be none. What is left over of the steep part
-    would then throw the model back by many times the step, to where the bearing has no state.
+    Beyond the rim the bearing's own stiffness may be zero. The residual of the steep part would
+    then move the model back by many times the step, to a place without a state of the bearing.
     """
     size = 0.0
     for a in range(2):
