@@ -42,11 +42,11 @@ class BatchProgress(NamedTuple):
     elapsed : float
         Time since the first began [s].
     failed : int
-        Of the runs done, those that stopped before their end.
+        Runs done that stopped before their end.
     taken : int
         Further runs that were complete before.
     reused : int
-        Of the runs done, those that a campaign copied instead of computing them.
+        Runs done that a campaign copied instead of computing them.
 
     Examples
     --------

@@ -1,8 +1,10 @@
-"""How pages read: words a sentence, long sentences, 'what' and 'where' in place of a noun or 'if'.
+"""How pages and docstrings read: words a sentence, long sentences, 'what' and 'where' as nouns.
 
 A thermometer, not the aim: a sentence that must be read twice is wrong at any length.
 """
 
+import ast
+import inspect
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -73,3 +75,21 @@ def test_pages_read_in_one_go(page: str) -> None:
         if value > bound
     }
     assert not over
+
+
+FRAGMENT = re.compile(r"(?:\A| : .*\n *)(?:Of|What|Whether|Where|How|Those|Who)\b")
+"""Start of a docstring, or of a parameter's description, that names no action and no quantity."""
+
+
+@pytest.mark.parametrize("package", ["lir_element", "frames"])
+def test_docstrings_begin_with_an_action_or_a_quantity(package: str) -> None:
+    texts = [
+        inspect.cleandoc(node.value.value)
+        for path in (ROOT / package).rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str)
+    ]
+    assert [text for text in texts if FRAGMENT.search(text)] == []
+    found = measure(prose_of("\n\n".join(texts)))
+    assert found.long <= 0.02
+    assert max(found.what, found.where) <= 0.5

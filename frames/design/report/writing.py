@@ -307,7 +307,7 @@ def _notes(tests: pd.DataFrame) -> list[tuple[str, str]]:
 
 _TITLES = {name.replace("_", " "): quantity.heading for name, quantity in JUDGED.items()}
 _TITLES |= {"axial tension": "maximum axial tension"}  # as the table has it, not its negative
-"""What the demands call the quantities of ``eccentricity.csv``."""
+"""Names of the quantities of ``eccentricity.csv`` in the table of demands."""
 
 
 def raised_tables(table: pd.DataFrame) -> list[Table]:

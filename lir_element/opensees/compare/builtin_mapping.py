@@ -35,21 +35,22 @@ class BuiltinValues:
         Effective radius L [m]: post-sliding stiffness W / L.
     friction_max, friction_min : float
         Strength over W at high speed and at zero speed [-]: ``(mu1 R1 + mu2 R2) / L``, from the
-        moment equilibrium of the rigid slider, which slides on both surfaces at once whatever
-        their radii and frictions. An element that is given mu itself is too weak by h / L.
+        moment equilibrium of the rigid slider, which slides on both surfaces at once for any radii
+        and frictions. An element with mu itself is too weak by h / L.
     rate : float
-        Of friction, over the velocity of the **bearing** [s/m]: ``alpha R / L``, because the
-        sliding on a surface is ``R U / L``. Zero where friction does not depend on speed.
+        Rate of friction over the velocity of the **bearing** [s/m]: ``alpha R / L``, because the
+        sliding on a surface is ``R U / L``. Zero if friction does not depend on speed.
     yield_displacement : float
-        Displacement U at which friction is overcome [m]: ``u_y (mu1 R1 + mu2 R2) L / (mu1 R1^2 +
-        mu2 R2^2)``, hence ``u_y L / R`` where the radii are equal.
+        Displacement U at the start of sliding [m]: ``u_y (mu1 R1 + mu2 R2) L / (mu1 R1^2 + mu2
+        R2^2)``, hence ``u_y L / R`` if the radii are equal.
     initial_stiffness : float
         Before sliding [N/m]: ``friction_max W / yield_displacement + W / L``. The bearing itself
         keeps its yield displacement, the elements keep this stiffness.
     axial_stiffness, axial_damping : float
-        Of the vertical material in compression [N/m, N s/m].
+        Stiffness [N/m] and damping [N s/m] of the vertical material in compression.
     torque, torsion_yield : float
-        Resistance to rotation about the vertical [N m], and where it is reached [rad].
+        Resistance to rotation about the vertical axis [N m], and the rotation at which it is
+        reached [rad].
 
     Examples
     --------
