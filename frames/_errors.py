@@ -128,7 +128,7 @@ def in_python(text: str) -> str:
 
 
 def bearing_for(place: str) -> str:
-    """Return how a bearing is put in the place of links: by a mapping, or by ``bearings_at``."""
+    """Return how to replace links by a bearing: by a mapping, or by ``bearings_at``."""
     if _IN_FILE.get():
         return f"{argument('at', [place])}, which puts that of [bearing] there"
     return f'bearing={{"{place}": LIRBearing(...)}}'
@@ -148,7 +148,7 @@ def _text(value: object, *, file: bool) -> str:
 
 
 def new_name(name: str, taken: Collection[str], kind: str) -> str:
-    """Accept a name that is not empty and not taken."""
+    """Return a name that is neither empty nor in use, or raise."""
     require_type(f"name of a {kind}", name, str, "a string: write it in quotes")
     if not name.strip():
         message = f"the name of a {kind} is empty: give it at least one visible character"

@@ -49,7 +49,7 @@ def fingerprints(values: Mapping[Key, object]) -> dict[Key, str]:
 def _tell(
     value: Any, told: Callable[[bytes], object], known: dict[int, tuple[object, bytes]]
 ) -> None:
-    # Hands over the content of a value piece by piece; `known` are dataclasses with their content.
+    # Yields the content of a value piece by piece; `known` are dataclasses with their content.
     name = type(value).__name__
     if value is None or isinstance(value, (str, bytes, bool, int, float, np.generic)):
         told(f"<{name}>{value!r}</>".encode())

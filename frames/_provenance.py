@@ -43,7 +43,7 @@ _ROOT = Path(__file__).parents[1]
 
 @cache
 def numerical_sources() -> dict[str, str]:
-    """Return a digest of each source that results depend on, as this process found them first."""
+    """Return a digest of each source that results depend on, as first read by this process."""
     files = sorted({path for pattern in NUMERICAL for path in _ROOT.glob(pattern)})
     return {
         path.relative_to(_ROOT).as_posix(): _digest(path.read_bytes().replace(b"\r\n", b"\n"))

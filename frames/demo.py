@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 LIR, DCFP, FREE = "LIR-DCFP", "DCFP with rims", "DCFP without rims"
 
 DEFAULT_SCALE = 0.8
-"""Scale of the motion at which the rims are met and all three systems survive."""
+"""Scale of the motion with rim contact at which all three systems survive."""
 
 LEVEL = "contact"
 """Model fidelity: plain DCFPs tip on their rims, which the condensed element does not follow."""
@@ -147,7 +147,7 @@ def systems_of(bearings: Mapping[Place, LIRBearing]) -> dict[str, dict[Place, LI
 
 def figures_of(results: Mapping[str, xr.Dataset]) -> dict[str, Figure]:
     """Return the figures by file name without ending."""
-    from frames.plots import (  # matplotlib, which those who take models from here do without
+    from frames.plots import (  # imported here, because users of the models do not need matplotlib
         bearing_sections,
         energy,
         histories,

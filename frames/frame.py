@@ -41,7 +41,7 @@ class NonlinearBuilder(FrameBuilder):
             that rigid motions of both nodes are free of force.
         law : Bilinear, BoucWen, Tie, ViscousDamper, Gap or HertzGap
             Law of its force. The first two are part of the structure, carry permanent loads and
-            must be elastic under them; the others are put in afterwards.
+            must be elastic under them; the others are added afterwards.
         direction : str or sequence of 3 floats
             "axial" for the line from i to j, one of "ux", "uy", "uz", "rx", "ry", "rz", or a
             vector. The deformation is positive if node j moves along it against node i.
@@ -49,7 +49,7 @@ class NonlinearBuilder(FrameBuilder):
         Raises
         ------
         ModelError
-            If a name is unknown or taken, or nodes at one place have the direction "axial".
+            If a name is unknown or in use, or nodes at one place have the direction "axial".
         TypeError
             If the law is none.
         """
@@ -119,8 +119,8 @@ class NonlinearBuilder(FrameBuilder):
             Name of the moat; its walls are links "<name>-<node>-<side>" from ground nodes
             "<name>-<node>", which are fixed.
         nodes : sequence of str
-            Nodes that may run into a wall, as the corners of the base slab: each has walls on all
-            sides that the law names.
+            Nodes with possible wall contact, for example the corners of the base slab: each has
+            walls on all sides of the law.
         law : Gap, HertzGap or mapping
             Law of one node's part of a wall, on all four sides, or by side "x+", "x-", "y+", "y-":
             the direction of the wall from the node.
@@ -128,7 +128,7 @@ class NonlinearBuilder(FrameBuilder):
         Raises
         ------
         ModelError
-            If a name is unknown or taken.
+            If a name is unknown or in use.
         """
         given = law if isinstance(law, Mapping) else dict.fromkeys(_SIDES, law)
         for side, each in given.items():
@@ -246,8 +246,8 @@ class Frame(NonlinearBuilder):
         ----------
         factors : mapping of str to float
             Factor of each load case [-], as in ``{"D": 1.2, "L": 0.5}``; `isolator_combinations`
-            has those of ASCE 7. A case of the frame that is left out is refused, one that the
-            frame does not have does no harm.
+            has those of ASCE 7. A missing case of the frame is refused; a case that the frame lacks
+            has no effect.
         name : str, optional
             Name of the copy; that of this frame if None.
         weight : str

@@ -80,8 +80,8 @@ def read_opensees(
     Returns
     -------
     Frame
-        Nodes are named by their tags; "ground-<tag>" and "bearing-<tag>" stand below the base
-        nodes. The model is the superelement "opensees", whose `notes` repeat the warnings.
+        Nodes are named by their tags; "ground-<tag>" and "bearing-<tag>" are below the base nodes.
+        The model is the superelement "opensees", whose `notes` repeat the warnings.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def read_sap2000(
         One for all joints that are restrained vertically and in plan, or one by name of a
         group, joint, link or link property. None: supports and links as the file has them.
     at : sequence of str, optional
-        Groups, joints, links or link properties at which the one bearing stands.
+        Groups, joints, links or link properties that get the one bearing.
     loads : mapping or str, optional
         Permanent loads: factors by load pattern, or the name of a combination of static loads.
         "all": dead, live and snow patterns in full, as the cases "D", "L" and "S" that codes

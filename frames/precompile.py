@@ -89,7 +89,7 @@ LAYERS = (
 )
 """Layers in the order of compilation: kernels that a layer calls are compiled before it.
 
-Within a layer two processes hardly meet in the same kernel; more than two would do so.
+Within a layer two processes hardly compile the same kernel; more than two would do so.
 """
 
 

@@ -1,4 +1,4 @@
-"""Names that a package has for others: each stands once, as an import "from m import a as a".
+"""Lazily imported names of a package: each is one import "from m import a as a".
 
 Under ``if TYPE_CHECKING:``, where checkers of types and readers find them, they are imported when
 they are first used: the package starts without the rest.
@@ -27,7 +27,7 @@ def lazily(
     def look_up(name: str) -> Any:
         if name in homes:
             found = getattr(import_module(homes[name]), name)
-            setattr(module, name, found)  # asked for once
+            setattr(module, name, found)  # each name is imported once
             return found
         if not name.startswith("_") and find_spec(f"{package}.{name}") is not None:
             return import_module(f"{package}.{name}")
@@ -38,7 +38,7 @@ def lazily(
 
 
 def listed(file: str) -> list[str]:
-    """Return the names that a module imports for others, as its `__all__`."""
+    """Return the names that a module exports, as its `__all__`."""
     return sorted(_homes(file))
 
 

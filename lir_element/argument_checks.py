@@ -108,7 +108,7 @@ class Interval(NamedTuple):
         return above and (number < self.high if self.open_above else number <= self.high)
 
     def words(self) -> str:
-        """Return it in words, as the end of "must be"."""
+        """Return it in words, for the end of "must be"."""
         found = []
         if not math.isinf(self.low):
             plain = f"above {self.low:g}" if self.low else "positive"
@@ -184,7 +184,7 @@ def require_between(
 def require_vector(
     name: str, values: ArrayLike, size: int, *, error: type[ValueError] = ValueError
 ) -> NDArray[np.float64]:
-    """Return a copy of `size` finite numbers (size,), or raise; `name` says their unit."""
+    """Return a copy of `size` finite numbers (size,), or raise; `name` includes their unit."""
     try:
         array = np.array(values, dtype=np.float64)
     except (TypeError, ValueError) as cause:

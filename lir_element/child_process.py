@@ -42,7 +42,7 @@ def pipe_of(handle: int) -> Any:
 
 def child_environment() -> dict[str, str]:
     """Return the environment in which a child process finds the modules that this one finds."""
-    # Last, so that no file in it stands for a module of others; in place if it has these packages.
+    # Last, so that no file in it hides a module of others; in place if it has these packages.
     here, own = os.getcwd(), str(Path(__file__).parents[1])
     paths = [path for path in sys.path if path and (path != here or here == own)]
     paths += [here] if len(paths) < len(sys.path) else []

@@ -32,9 +32,9 @@ class Element:
     """An LIR-DCFP bearing between node i (below) and node j (above).
 
     Six degrees of freedom a node: ux, uy, uz, rx, ry, rz; z upwards. Displacements are measured
-    from the undeformed, unloaded bearing. Node i lies at the vertex of the bottom concave
-    surface, node j at that of the top one (`plate_thickness` moves them outwards); in a model
-    they may coincide.
+    from the undeformed, unloaded bearing. Node i is at the vertex of the bottom concave surface,
+    node j at that of the top one (`plate_thickness` moves them outwards); in a model they may
+    coincide.
 
     Parameters
     ----------
@@ -202,7 +202,7 @@ class Element:
             return
         self._pending = False
         if self._contacts is not None:
-            self.tangent_stiffness()  # which may be asked for after the commit
+            self.tangent_stiffness()  # users may read it after the commit
         levels.bearing_commit(
             self._props, self._committed, self._trial, *self._words, self._heat, self._contacts, 0
         )
@@ -247,7 +247,7 @@ class Element:
 
 
 def limit_detail(props: Records, state: Records, index: int) -> str:
-    """Return how far a bearing lies beyond its limit."""
+    """Return the excess of a bearing over its limit, in words."""
     status = RunStatus(int(state["status"][index]))
     if status is RunStatus.SLIP_EXCEEDED:
         slip = float(np.hypot(*state["slip"][index]))
@@ -270,7 +270,7 @@ def limit_detail(props: Records, state: Records, index: int) -> str:
 def about_to_snap(props: Records, state: Records) -> tuple[int, str] | None:
     """Return the first bearing whose slip is about to pass its last equilibrium, and how far it is.
 
-    There (`last_slip`) the force no longer rises, and Newton's method finds no way on.
+    There (`last_slip`) the force no longer rises, and Newton's method does not converge.
 
     Shapes: props, state (n,).
     """

@@ -1,7 +1,7 @@
 """The numbers of a dataclass, each declared once: unit, bounds, remedy, and its name in words.
 
-A field says it by its metadata, ``field(default=0.3, metadata=number("-", "[0, 1)"))``. Checks at
-the door, prints, keys of files and reports read it from there.
+The metadata of a field define it, ``field(default=0.3, metadata=number("-", "[0, 1)"))``. Input
+checks, prints, keys of files and reports read them.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ PIECE = 0.03
 """Target length of a piece [s]: a call costs some 0.1 ms."""
 
 FIRST_WORK = 50
-"""Work of the first piece; its unit is the loop's own, such as one trial step."""
+"""Work of the first piece; its unit is the loop's own, for example one trial step."""
 
 MARKS = 50
 """Number of progress reports."""
@@ -62,7 +62,7 @@ def ready(kernel: Callable[..., Any], *arguments: Any) -> float:
     return perf_counter() - began
 
 
-_OWNED = 4  # flag of an array that owns its memory, which its type does not say
+_OWNED = 4  # flag of an array that owns its memory, which is not part of its type
 
 _READY: set[tuple[Any, ...]] = set()  # kernels and kinds of arguments they are compiled for
 

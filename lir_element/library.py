@@ -160,7 +160,7 @@ class _Entries:
     def _value(
         self, builder: Any, base: Any, memory: _Memory, value: Any, kind: Any, left: Iterator[Any]
     ) -> Any:
-        # An argument of a kernel as numba hands it on.
+        # An argument of a kernel in numba's convention.
         context = self._context
         if value is None:
             return context.get_dummy_value()

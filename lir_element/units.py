@@ -24,7 +24,7 @@ OTHER_UNITS: dict[str, tuple[tuple[str, float], ...]] = {
 
 
 def meant(value: float, unit: str, low: float, high: float) -> str:
-    """Return which unit makes a number of the wrong size a usual one, as the end of a sentence."""
+    """Return the unit in which a number of the wrong size would be usual, to end a sentence."""
     fitting = [
         worded(
             "{value:.5g} {name} are {same:.4g} {unit}",

@@ -197,7 +197,7 @@ def _member_table(
         if member.up is not None:
             up[place] = member.up
     arrays = member_arrays([member.section for member in members], start, end, up)
-    uniform = frame.uniform_loads  # made anew whenever it is asked for
+    uniform = frame.uniform_loads  # a new mapping on each access
     load = np.array([uniform.get(m.name, np.zeros(3)) for m in members])
     elastic = local_stiffness(arrays)
     places = {name: 3 + k for k, name in enumerate(RELEASABLE)}

@@ -151,7 +151,7 @@ def check_restraint(system: System, stiffness: SparseMatrix) -> None:
 
 
 def free_motions(stiffness: SparseMatrix) -> FloatArray:
-    """Return the motions that meet no stiffness.
+    """Return the motions without stiffness.
 
     The stiffness is scaled to a unit diagonal first, which makes translations and rotations
     comparable. If some of its eigenvalues are small, the smallest ones come from a dense solver

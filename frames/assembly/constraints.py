@@ -195,7 +195,7 @@ def eliminate(equations: SparseMatrix, scale: FloatArray) -> tuple[IntArray, Spa
 
 
 def separate_massless(mass: SparseMatrix, labels: tuple[str, ...]) -> tuple[SparseMatrix, IntArray]:
-    """Change displacements so that those without mass stand alone.
+    """Change displacements so that the massless ones are separate.
 
     Masses at the end of rigid links leave a mass matrix that is singular without having zero
     rows. Directions in which nothing moves that has mass get displacements of their own.

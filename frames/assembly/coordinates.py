@@ -48,7 +48,7 @@ class Basis:
 
     @cached_property
     def mobility(self) -> FloatArray:
-        """Accelerations of b under forces on b that eta gives way to, (n_b, n_b) [1/kg, ...].
+        """Accelerations of b under forces on b, with eta following, (n_b, n_b) [1/kg, ...].
 
         Coordinates without mass of their own have none: nothing balances a force on them.
         """

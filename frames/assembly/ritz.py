@@ -37,7 +37,7 @@ LARGE = 4000
 """Displacements of a structure, above which matrices of all its modes are out of reach."""
 
 VECTORS, TURNS = 150, 3
-"""Vectors, and turns of them, that stand at least for all modes of a large structure."""
+"""Vectors, and cycles of them, at least, instead of all modes of a large structure."""
 
 _NEW = 1e-6  # of a vector's size: least remainder beside those before, to count as a new one
 
@@ -62,7 +62,7 @@ def is_large(system: System) -> bool:
 
 
 class RitzSpace:
-    """Load-dependent vectors of a structure over its held bearings, as many as are asked for.
+    """Load-dependent vectors of a structure over its held bearings, added on request.
 
     Raises
     ------

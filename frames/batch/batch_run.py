@@ -82,7 +82,7 @@ class Runner:
         return Worker(self, is_stopped)
 
     def structure(self, name: str) -> Structure | AnalysisError:
-        """Return a structure, set up by the first who asks, or why it has no equilibrium."""
+        """Return a structure, set up on first use, or the reason that it has no equilibrium."""
         with self._lock:
             if name not in self._shared:
                 self._shared[name] = self._set_up(name)
@@ -152,7 +152,7 @@ def _layout_of(analysis: PreparedFrame, recording: Recording | None) -> Layout:
 
 
 class Worker:
-    """One thread's runs; `is_stopped` says whether to leave off."""
+    """Runs of one thread; `is_stopped` returns True to stop."""
 
     def __init__(self, runner: Runner, is_stopped: Callable[[], bool]) -> None:
         self._runner, self._is_stopped = runner, is_stopped

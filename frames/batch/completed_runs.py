@@ -1,4 +1,4 @@
-"""Runs of a batch in files, one as it completes: a batch that was stopped takes them up again."""
+"""Runs of a batch in files, one as it completes: a batch that was stopped continues with them."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class KeptRuns:
         return found
 
     def keep(self, row: RunResult, case: Case) -> None:
-        """Write a run; not one of a structure without equilibrium, which takes no time."""
+        """Write a run; not one of a structure without equilibrium, which needs no time."""
         if row.layout is None:
             return
         data = stack([row._replace(place=0)], [case], self._digests)

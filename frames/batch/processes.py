@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 
     from frames.batch.batch_dataset import Layout, RunResult
 
-TRIED = 16  # runs by which the others are judged
-WORTH = 2.0  # s that processes are to save: starting two takes nearly as much
-_BYTES = 0.5e9  # of the machine's memory for each process, which takes half of that
+TRIED = 16  # runs that decide on the others
+WORTH = 2.0  # s that processes must save: starting two costs nearly as much
+_BYTES = 0.5e9  # of the machine's memory for each process, which needs half of that
 _ATTENTIVE = 0.02  # s between two looks whether to leave off
 _NO_PICKLE = PicklingError, AttributeError, TypeError, ValueError, RecursionError
 
@@ -97,7 +97,7 @@ def crew_of(workers: Crew | int | None, runs: int) -> Generator[Crew, None, None
 
 
 class CrewWorker:
-    """The runs of thread `k`, in it or in its process; `is_stopped` says whether to leave off."""
+    """The runs of thread `k`, in it or in its process; `is_stopped` returns True to stop."""
 
     def __init__(self, crew: Crew, k: int, runner: Runner, is_stopped: Callable[[], bool]) -> None:
         self._crew, self._k, self._runner, self._is_stopped = crew, k, runner, is_stopped
@@ -121,10 +121,10 @@ class ChildProcess:
     """A process that runs cases, and its current batch."""
 
     def __init__(self, layouts: dict[str, Layout]) -> None:
-        # silent: if it cannot do a run, its thread does, and says why
+        # silent: if it cannot do a run, its thread does, and reports the reason
         self._process, self.pipe = start(__name__, silent=True)
         self._layouts = layouts
-        self.serves: bool | None = None  # None: it has not said so yet
+        self.serves: bool | None = None  # None: it has not reported yet
         self._runner: Runner | None = None
 
     def is_ready(self) -> bool:

@@ -60,7 +60,7 @@ def exit_codes() -> Generator[None, None, None]:
             why = cause if isinstance(cause, AnalysisError) else f"{_MEMORY} ({cause})"
             err.print(f"error: {why}", markup=False, highlight=False, soft_wrap=True)
             raise typer.Exit(FAILED_ANALYSIS) from cause
-        except BrokenPipeError:  # who reads the output has left
+        except BrokenPipeError:  # the reader of the output has left
             raise
         except OSError as cause:
             err.print(f"error: {_of_a_file(cause)}", markup=False, highlight=False, soft_wrap=True)

@@ -146,7 +146,7 @@ def _one_mass(parts: ProjectInputs) -> OneMass | None:
 def _sized(
     parts: ProjectInputs, found: Design, one: Candidate, asked: Asked, margin: float
 ) -> Verified:
-    # Sized on the building, said round by round.
+    # Sizing on the building, reported round by round.
     from frames.design.project.verification import verified
 
     return verified(

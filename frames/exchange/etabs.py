@@ -218,7 +218,7 @@ def _read_source(tables: Tables, building: Building) -> None:
 
 
 def read_stories(tables: Tables, building: Building) -> None:
-    """Read the stories, which stand from the top; elevations are counted from the lowest."""
+    """Read the stories, which are listed from the top; elevations count from the lowest."""
     towers = tables.rows("TOWER")
     if len({row.text("Name", "") for row in towers}) > 1:
         message = "models of several towers are not read: export them one by one"

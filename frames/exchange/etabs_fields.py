@@ -248,4 +248,4 @@ KNOWN = {
     "SHEARSTUDHEIGHT",
     "STORY": "MASTERSTORY SIMILARTO SPLICEABOVE SPLICEHEIGHT",
 }
-"""Words without effect on the frame, as `Tables.unknown` takes them."""
+"""Words without effect on the frame, for `Tables.unknown`."""

@@ -75,8 +75,8 @@ OF_SHELLS = "F11 F22 F12 M11 M22 M12 mass weight"
 class Refusal(NamedTuple):
     """A field whose loss would change the answer: its names, the key of `allow`, and its meaning.
 
-    It matters if its text does (`has`, `lacks`, `is_none_of`), or without `when` if it says Yes.
-    "{}" in `what` is the text.
+    It applies if its text does (`has`, `lacks`, `is_none_of`), or without `when` if it is Yes. "{}"
+    in `what` is the text.
     """
 
     names: str
@@ -163,7 +163,7 @@ def _names(names: str, prefix: str) -> tuple[str, ...]:
 
 
 def written(map_: Fields, given: object, units: Units) -> dict[str, Value]:
-    """Return the fields of a row of a building, or of as many numbers, as a file has them."""
+    """Return the fields of a row of a building, or of as many numbers, in the file's format."""
     if isinstance(given, dict):
         pairs: Iterable[tuple[Field, Any]] = ((f, given[f.ours]) for f in map_ if f.ours in given)
     elif isinstance(given, Sequence):

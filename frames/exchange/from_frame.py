@@ -52,7 +52,7 @@ _KINDS = {_DEAD: "Dead", "L": "Live", "S": "Snow"}
 def building_of(
     frame: FrameData, displacement: float | None, words: str, program: str = "SAP2000"
 ) -> Building:
-    """Return a frame as a building for a program, in whose file units are those words say."""
+    """Return a frame as a building for a program, in the units of its file."""
     units = units_of(words, "units", ModelError)
     _refuse(frame, displacement, program)
     building = Building(frame.name, program, words, units, ImportReport(frame.name))
@@ -241,7 +241,7 @@ def _add_line(
     start: FloatArray | Vector,
     end: FloatArray | Vector,
 ) -> None:
-    # Per length between the joints, as the programs count it.
+    # Per length between the joints, as in the programs.
     member = frame.members[name]
     whole = math.dist(*(frame.nodes[n].position for n in (member.i, member.j)))
     scale = _true(frame, member) / whole

@@ -127,7 +127,7 @@ class Levels:
 
 
 def is_within(place: FloatArray, outline: FloatArray) -> bool:
-    """Return whether a point lies inside a polygon, or within a millimetre of its edges.
+    """Return True if a point is inside a polygon, or within a millimetre of its edges.
 
     Shapes: place (2,), outline (n, 2).
     """

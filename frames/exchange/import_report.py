@@ -77,7 +77,7 @@ class Entry:
     what: str  # the objects, and their treatment
     count: int
     names: tuple[str, ...] = ()  # some of them
-    weight: float | None = None  # share of the own weight that they stand for [-]
+    weight: float | None = None  # represented share of the own weight [-]
     stiffness: float | None = None  # the same of modulus times volume of all elements [-]
 
 

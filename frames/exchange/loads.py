@@ -1,4 +1,4 @@
-"""Own weights, loads and combinations of a building, whichever the dialect that they come from."""
+"""Own weights, loads and combinations of a building, for any source program."""
 
 from __future__ import annotations
 
@@ -168,7 +168,7 @@ def area_weight(building: Building, area: str, gravity: float = 0.0) -> float:
 
 
 OWN_MASS = "own mass"
-"""Name of the case that stands for the mass of elements."""
+"""Name of the case of the elements' mass."""
 
 
 def own_loads(

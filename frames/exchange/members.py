@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 LEAST_FACTOR = 1e-6
-"""Factor on a stiffness that stands for none [-]."""
+"""Factor that replaces zero on a stiffness [-]."""
 
 MOMENTS = {"T": "T", "M2": "Mz", "M3": "My"}
 """Releases of the programs and those of members: local z is axis 2, local y is -3."""

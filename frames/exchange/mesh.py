@@ -33,7 +33,7 @@ MOST = 20_000
 class Mesh:
     """Elements of shells: the area each belongs to, and its nodes in order (3 or 4).
 
-    `between` has the nodes made along edges, and the two corners each lies between.
+    `between` has the nodes made along edges, and the two corners of each.
     """
 
     elements: list[tuple[str, tuple[str, ...]]] = field(default_factory=list)
@@ -291,7 +291,7 @@ _STEPS = 30
 
 
 def joints_within(areas: Sequence[AreaObject], points: Points, edges: bool = False) -> Inside:
-    """Return the joints that lie within areas, on their edges too if these are asked for."""
+    """Return the joints inside areas, with `edges` also those on their edges."""
     names = list(points)
     where = np.array([points[name] for name in names]).reshape(-1, 3)
     tree = cKDTree(where)

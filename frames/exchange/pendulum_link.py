@@ -1,4 +1,4 @@
-"""The friction isolator link that stands for a bearing in another program."""
+"""The friction isolator link that replaces a bearing in another program."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class PendulumLink(NamedTuple):
-    """A friction isolator link that stands for a bearing under an axial load."""
+    """A friction isolator link that replaces a bearing under an axial load."""
 
     radius: float  # L = R_1 + R_2 - h [m]
     slow: float  # Q/W at rest [-]

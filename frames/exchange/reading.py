@@ -23,7 +23,7 @@ _END = "END TABLE DATA"
 
 
 def read_text(path: Path) -> str:
-    """Return the text of a file, whichever of the usual codes it is written in."""
+    """Return the text of a file in any of the usual encodings."""
     try:
         data = path.read_bytes()
     except OSError as cause:

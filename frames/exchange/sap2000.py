@@ -85,7 +85,7 @@ def read_properties(tables: Tables, building: Building) -> None:
     used |= {row.text("MatProp", "") for row in frames}
     heads = by_name(tables.rows("MATERIAL PROPERTIES 01 - GENERAL"), "Material")
     for name, row in _used(tables, building, dialect.MATERIALS, "Material", used).items():
-        for field in ("UnitMass", "UnitWeight"):  # which stand in either table of materials
+        for field in ("UnitMass", "UnitWeight"):  # which are in either table of materials
             if name in heads and heads[name].has(field) and not row.has(field):
                 row.values[field] = heads[name].values[field]
         building.materials[name] = material_of(row, name, dialect.MATERIAL, building)
@@ -253,7 +253,7 @@ def _add_gravity(row: Row, building: Building, *, on_area: bool) -> None:
 def _read_source(tables: Tables, building: Building) -> None:
     rows = [(row, values(row, dialect.MASS_SOURCE, building)) for row in tables.rows("MASS SOURCE")]
     sources: dict[str, dict[str, Any]] = {}
-    for _, given in rows:  # of which any row may say so
+    for _, given in rows:  # any row may set it
         before = sources.setdefault(given["name"], given)
         sources[given["name"]] = {word: before[word] or given[word] for word in given}
     name = default_source(sources)

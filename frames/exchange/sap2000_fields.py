@@ -278,7 +278,7 @@ KNOWN = {
     "MATERIAL PROPERTIES 02": "A1",
     "PROGRAM CONTROL": "*",
 }
-"""Fields without effect on the frame, as `Tables.unknown` takes them."""
+"""Fields without effect on the frame, for `Tables.unknown`."""
 
 OBJECTS = ("CONNECTIVITY", "CONSTRAINT DEFINITIONS", "JOINT ", "FRAME ", "AREA ", "LINK ")
 

@@ -134,7 +134,7 @@ def _rounded(place: tuple[float, float, float]) -> tuple[float, ...]:
 
 
 def meet_joints(building: Building, shells: list[AreaObject], points: Points) -> Inside:
-    """Return the joints within shells that their mesh has to meet."""
+    """Return the joints within shells that must be nodes of their mesh."""
     inside = joints_within([area for area in shells if len(area.joints) <= 4], points)
     names = list(dict.fromkeys(joint for joints in inside.values() for joint in joints))
     if building.program == _MESHED:
@@ -169,10 +169,10 @@ AT_ONCE = 8
 _ALIKE = 9  # decimals of the sides of equal elements [m]
 
 
-_PLUMB = 1e-6  # cosine of a normal, below which an area stands upright
+_PLUMB = 1e-6  # cosine of a normal, below which an area is vertical
 
 NONE = 1e-6
-"""Factor on a stiffness that stands for none [-]."""
+"""Factor that replaces zero on a stiffness [-]."""
 
 QUAD, TRIANGLE = "ShellMITC4", "ShellDKGT"
 """Elements of OpenSees: Dvorkin & Bathe (1984); discrete Kirchhoff triangle with a membrane."""

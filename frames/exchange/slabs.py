@@ -58,8 +58,8 @@ class Slabs:
     """Distributes loads on horizontal areas to the members that run along their panels.
 
     A slab is cut into panels along the members within it. A panel gives its load to the members
-    along its edges, each point to the nearest edge, or one way. If members are missing along a
-    carrying edge, the corners of the area get it. The frame has all members.
+    along its edges, each point to the nearest edge, or in one direction. If members are missing
+    along a carrying edge, the corners of the area get it. The frame has all members.
     """
 
     def __init__(self, frame: Frame, building: Building) -> None:

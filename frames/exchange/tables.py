@@ -36,8 +36,8 @@ class Row:
     ) -> None:
         self.file, self.table, self.line = file, table, line
         self.values, self.decimal = values, decimal
-        self.looked_at: set[str] = set()  # fields that the reader has asked for
-        self.lines: dict[str, int] = {}  # of fields that stand in others than `line`
+        self.looked_at: set[str] = set()  # fields that were read
+        self.lines: dict[str, int] = {}  # of fields that are in other lines than `line`
 
     @property
     def place(self) -> str:
@@ -92,7 +92,7 @@ class Row:
         return int(value)
 
     def yes(self, field: str, *, default: bool | None = None) -> bool:
-        """Return whether a value says Yes; anything but Yes and No is refused."""
+        """Return True if a value is Yes; anything but Yes and No is refused."""
         text = self.text(field, None if default is None else "Yes" if default else "No")
         found = _YES.get(text.strip().lower())
         if found is None:
@@ -159,11 +159,11 @@ class Tables:
         return found
 
     def unread(self) -> dict[str, int]:
-        """Return the tables that nobody asked for, and how many rows they have."""
+        """Return the unread tables, and their numbers of rows."""
         return {name: len(self._rows[name]) for name in self if name not in self._read}
 
     def unknown(self, known: Mapping[str, str]) -> list[tuple[str, str, Row, int]]:
-        """Return fields that have a value, that nobody asked for and that are not known."""
+        """Return fields that have a value, but were not read and are unknown."""
         found: dict[tuple[str, str], tuple[Row, int]] = {}
         for name in self:
             if name not in self._read:
@@ -324,7 +324,7 @@ class Units:
 
 
 def units_of(words: str, name: str, error: Callable[[str], ValueError]) -> Units:
-    """Return the units that a force and a length stand for, "KN, m", or raise an error."""
+    """Return the units of a force and a length, "KN, m", or raise an error."""
     force, length, *_ = [*(word.strip().upper() for word in words.split(",")), ""]
     if force not in FORCES or length not in LENGTHS:
         message = (

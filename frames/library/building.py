@@ -1,4 +1,4 @@
-"""A building on bearings from its plan, whose parts must meet; bearings at points in plan."""
+"""A building on bearings from its plan, whose parts must join; bearings at points in plan."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def _add_level(frame: Frame, plan: BuildingPlan, level: int) -> None:
 
 
 def _slabs(nodes: list[str], edges: list[tuple[str, str]]) -> list[list[str]]:
-    # Nodes that beams join, one list for each part of a level that stands apart.
+    # Nodes that beams join, one list for each separate part of a level.
     group = {node: node for node in nodes}
 
     def root(node: str) -> str:
@@ -104,7 +104,7 @@ def _slabs(nodes: list[str], edges: list[tuple[str, str]]) -> list[list[str]]:
 
 
 def require_whole(plan: BuildingPlan) -> None:
-    """Refuse a plan whose parts do not meet."""
+    """Refuse a plan whose parts do not join."""
     _require_walls(plan)
     count = len(plan.heights)
     for part in plan.columns:
@@ -143,7 +143,7 @@ def require_whole(plan: BuildingPlan) -> None:
                 "it: let it begin on the base, or add the beams that carry it"
             )
             raise ModelError(msg)
-        if plan.walls:  # which must not lie over beams
+        if plan.walls:  # which must not be over beams
             points = {line: plan.lines[line] for line in nodes}
             walls = [(wall.start, wall.end) for wall in plan.walls_at(level)]
             beams = [(beam.start, beam.end) for beam in plan.beams_at(level)]
@@ -285,7 +285,7 @@ def add_bearings(
 ) -> float:
     """Add a bearing at every point in plan, between a ground and a base node; return their height.
 
-    The base is level: ground nodes under bearings of less height stand higher.
+    The base is level: ground nodes under bearings of less height are higher.
     """
     level = max(device.height for device in devices.values())
     for name, device in devices.items():

@@ -18,7 +18,7 @@ DEFAULT_BASE_DEPTH = 0.8
 class ColumnPart(NamedTuple):
     """A column over one storey."""
 
-    line: str  # the line in plan that it stands on
+    line: str  # its line in plan
     storey: int  # 1 is the one on the base
     section: Section
     # as in `Frame.add_member`; None has the depth of the section along global x
@@ -49,7 +49,7 @@ class BracePart(NamedTuple):
 class WallPart(NamedTuple):
     """A wall between two lines from the base up, as a column on its axis with rigid arms."""
 
-    start: str  # its ends in plan; bearings stand under them
+    start: str  # its ends in plan, with bearings under them
     end: str
     last: int  # the storey that it ends with
     section: Section  # its section: local z along the wall, local y across
@@ -59,10 +59,10 @@ class WallPart(NamedTuple):
 class BuildingPlan:
     """Parts of a building."""
 
-    # lines in plan on which columns stand, by name: x and y [m]
+    # lines in plan with columns, by name: x and y [m]
     lines: Mapping[str, tuple[float, float]]
     heights: tuple[float, ...]  # height of each storey, the lowest first [m]
-    # a bearing stands under each column of the first storey, and at both ends of a wall
+    # a bearing is under each column of the first storey, and at both ends of a wall
     columns: tuple[ColumnPart, ...]
     # those of the base, level 0, among them; one within a wall goes into its arms
     beams: tuple[BeamPart, ...]

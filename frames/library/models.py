@@ -150,8 +150,8 @@ def moment_frame(
         Plastic hinges at both ends of all members of a kind: "column", "beam", "base_beam".
     eccentricity : tuple of two floats
         Distance of the floors' centre of mass from the middle of the plan along x and y, over the
-        sides of the plan [-]; codes ask for 0.05 (ASCE/SEI 7-22, 12.8.4.2). The masses of the
-        nodes rise linearly towards it; the steel's own is not moved.
+        sides of the plan [-]; codes require 0.05 (ASCE/SEI 7-22, 12.8.4.2). The masses of the nodes
+        rise linearly towards it; the steel's own is not moved.
     base_depth : float
         Depth of the mass cast with the nodes over the bearings [m]: about x and y they get the
         inertia m depth^2 / 12 of their mass m. With 0 the moment of a hard rim contact may have no

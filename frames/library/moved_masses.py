@@ -1,4 +1,4 @@
-"""Floors' masses moved in plan, as codes ask for accidental eccentricity; weights stay."""
+"""Floors' masses moved in plan, for the codes' accidental eccentricity; weights stay."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from frames.assembly.system import System
 
 MOST = 0.25
-"""Largest share of a side by which masses may be moved [-]; codes ask for 0.05."""
+"""Largest share of a side by which masses may be moved [-]; codes require 0.05."""
 
 PART = "moved-masses"
 """Name of the superelement that moves them."""
@@ -141,7 +141,7 @@ def _move(system: System, floor: _Floor, axis: int, share: float, change: sparse
                 change[6 * node + push, 6 * node + push] += mass[push] * tilt * arm
         return
     _require_turning(system, floor)
-    push, sign = (1, 1.0) if axis == 0 else (0, -1.0)  # the mass across the way that it is moved
+    push, sign = (1, 1.0) if axis == 0 else (0, -1.0)  # the mass across the direction of the move
     for node, mass in zip(floor.nodes, masses[:, push], strict=True):
         i, j = 6 * node + push, 6 * node + _RZ
         change[i, j] += sign * mass * distance

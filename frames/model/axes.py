@@ -1,8 +1,8 @@
 """Local axes of members, rotation of vectors and matrices; faces of a plan.
 
-Local x runs from node i to node j; local z lies in the plane of x and the `up` vector, on the side
-of `up`; y = z x x completes the right-handed set. By default `up` is global Z, for vertical
-members global X. A horizontal member along global X thus has the global directions as local axes.
+Local x runs from node i to node j; local z is in the plane of x and the `up` vector, on the side of
+`up`; y = z x x completes the right-handed set. By default `up` is global Z, for vertical members
+global X. A horizontal member along global X thus has the global directions as local axes.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ def matrix_to_global(matrices: FloatArray, axes: FloatArray) -> FloatArray:
 Point: TypeAlias = "tuple[float, float] | FloatArray"
 
 _STRAIGHT = 1e-6
-"""Sine of the turn below which a corner lies on a straight edge [-]."""
+"""Sine of the rotation below which a corner is on a straight edge [-]."""
 
 
 class Fields(NamedTuple):
@@ -175,8 +175,8 @@ def faces_of(
 ) -> list[list[str]]:
     """Return the bounded faces of a plane graph, anticlockwise; free ends enclose nothing.
 
-    Each side of each edge is walked once, turning as far to the left as there is. `order` says
-    with which edges walks begin.
+    Each side of each edge is followed once, with the leftmost turn at each node. `order` gives the
+    first edges.
     """
     links = {name: set(others) for name, others in around.items()}
     while loose := [name for name, others in links.items() if len(others) < 2]:

@@ -103,7 +103,7 @@ class FrameBuilder(FrameLoader):
         Raises
         ------
         ModelError
-            If a name is unknown or taken, the length is zero, `up` is parallel to the member,
+            If a name is unknown or in use, the length is zero, `up` is parallel to the member,
             torsion is released at both ends, or offsets leave no length.
         """
         new_name(name, self._members, "member")
@@ -133,7 +133,7 @@ class FrameBuilder(FrameLoader):
         Raises
         ------
         ModelError
-            If a name is unknown or taken, or a stiffness is negative or none is positive.
+            If a name is unknown or in use, or a stiffness is negative or none is positive.
         """
         new_name(name, self._springs, "spring")
         require_two_nodes(self._nodes, i, j, f'spring "{name}"')
@@ -191,7 +191,7 @@ class FrameBuilder(FrameLoader):
         Raises
         ------
         ModelError
-            If the name is taken, a node unknown or listed twice, or an array has the wrong shape,
+            If the name is in use, a node unknown or listed twice, or an array has the wrong shape,
             is not finite or not symmetric.
         """
         new_name(name, self._superelements, "superelement")
@@ -221,7 +221,8 @@ class FrameBuilder(FrameLoader):
         Raises
         ------
         ModelError
-            If a node is unknown, repeated or taken, or the nodes are not at one elevation.
+            If a node is unknown, repeated or in another diaphragm, or the nodes are not at one
+            elevation.
         """
         new_name(name, self._diaphragms, "diaphragm")
         chosen = node_list(self._nodes, nodes, f'diaphragm "{name}"', least=2)
@@ -245,7 +246,7 @@ class FrameBuilder(FrameLoader):
         Raises
         ------
         ModelError
-            If a name is unknown or taken, or the nodes are not at the bearing's ends.
+            If a name is unknown or in use, or the nodes are not at the bearing's ends.
         """
         new_name(name, self._bearings, "bearing")
         require_two_nodes(self._nodes, i, j, f'bearing "{name}"')
@@ -265,7 +266,7 @@ class FrameBuilder(FrameLoader):
         Raises
         ------
         ModelError
-            If the level does not lie above the one added before.
+            If the level is not above the one added before.
         """
         new_name(name, self._levels, "level")
         chosen = node_list(self._nodes, nodes, f'level "{name}"', least=1)

@@ -183,7 +183,7 @@ def refuse_shared(name: str, nodes: tuple[str, ...], others: Mapping[str, Diaphr
 
 
 def fits(rise: float, height: float) -> bool:
-    """Return whether a bearing of a height stands between nodes that are `rise` apart [m]."""
+    """Return True if a bearing of a height fits between nodes that are `rise` apart [m]."""
     return min(abs(rise), abs(rise - height)) <= SAME_PLACE
 
 

@@ -67,7 +67,7 @@ class Pinching(_Checked):
     Attributes
     ----------
     slip : float
-        Largest share zeta_s of the stiffness that slip takes away, in [0, 1).
+        Largest share zeta_s of the stiffness that slip removes, in [0, 1).
     rate : float
         Rate of its growth with the dissipated energy, p.
     place : float
@@ -221,7 +221,7 @@ class Gap(_Checked):
     Attributes
     ----------
     gap : float
-        Deformation at which it is met [m], >= 0.
+        Deformation at contact [m], >= 0.
     stiffness : float
         k [N/m].
     damping : float
@@ -273,7 +273,7 @@ class Gap(_Checked):
             turn = math.pi - math.atan2(2.0 * ratio * w, 1.0 - 2.0 * ratio * ratio)
             return math.exp(-ratio / w * turn) - e
 
-        from scipy.optimize import brentq  # imported by those few who ask for it
+        from scipy.optimize import brentq  # imported on use, which is rare
 
         ratio = brentq(left, 0.0, 1.0 - 1e-9, xtol=1e-12) if e < 1.0 else 0.0
         return 2.0 * float(ratio) * math.sqrt(k * m)
@@ -291,7 +291,7 @@ class HertzGap(_Checked):
     Attributes
     ----------
     gap : float
-        Deformation at which it is met [m], >= 0.
+        Deformation at contact [m], >= 0.
     stiffness : float
         k [N/m^exponent].
     restitution : float

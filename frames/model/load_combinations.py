@@ -1,4 +1,4 @@
-"""Permanent loads of a frame as its analysis takes them, and combinations of their cases."""
+"""Permanent loads of a frame for its analysis, and combinations of their cases."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def isolator_combinations(s_ms: float = 0.0) -> dict[str, dict[str, float]]:
     Average 1.0 D + 0.5 L; maximum 1.2 D + E_v + L + 0.15 S; minimum 0.9 D - E_v, where :math:`E_v =
     0.2 S_{MS} D`. The time history adds the horizontal earthquake. Snow is that of ASCE 7-22, whose
     loads are of strength level, with its factor of sec. 2.3.6; ASCE 7-16 has 0.2 on its own, lower
-    snow loads: give such factors to `Frame.combined`. Source: ASCE/SEI 7-22, sec. 17.2.7.1; compare
-    with the edition that you design by.
+    snow loads: give those factors to `Frame.combined`. Source: ASCE/SEI 7-22, sec. 17.2.7.1;
+    compare with the edition that you design by.
 
     Parameters
     ----------

@@ -177,7 +177,7 @@ class FrameLoader(FrameData):
         Raises
         ------
         ModelError
-            If the member does not exist, a number is not finite, or the part does not lie on it.
+            If the member does not exist, a number is not finite, or the part is not on it.
 
         Notes
         -----

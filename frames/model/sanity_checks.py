@@ -23,7 +23,8 @@ TALLEST, WIDEST = 1000.0, 50e3
 
 SOFTEST, LARGEST_AREA = 3e8, 50.0
 """Elastic modulus [Pa] below which a member is softer than any plastic, unless its area [m2] shows
-that it stands for a stiffness."""
+that it represents a stiffness.
+"""
 
 LIGHTEST = 20.0
 """Density of the lightest material of members [kg/m3]; 0 leaves their mass out."""

@@ -29,7 +29,7 @@ class Section(SectionConstants):
     """Cross-section and material of an elastic member, in the member's local axes.
 
     Local x runs along the member, local y and z are the principal axes of the section
-    (`frames.model.axes.local_axes`). The *depth* of the ready-made shapes lies along local z, which
+    (`frames.model.axes.local_axes`). The *depth* of the ready-made shapes is along local z, which
     is vertical for a horizontal member: `inertia_y` then carries the gravity loads.
 
     Parameters

@@ -190,7 +190,7 @@ def _only_column(name: str, table: FloatArray, time: int | None) -> int:
 
 
 def _doubt_columns(name: str, table: FloatArray, layout: ColumnLayout) -> None:
-    """Refuse pairs of time and value that were taken for columns, and warn of one history."""
+    """Refuse pairs of time and value that were read as columns, and warn of one history."""
     if layout.time is not None:
         times = table[:, layout.time]
         step = float(times[-1] - times[0]) / max(len(times) - 1, 1)
@@ -219,7 +219,7 @@ def _doubt_columns(name: str, table: FloatArray, layout: ColumnLayout) -> None:
 
 
 def _doubt_rows(name: str, rows: list[list[float]]) -> None:
-    """Refuse a table with times that was taken for rows, and warn of columns."""
+    """Refuse a table with times that was read as rows, and warn of columns."""
     size = len(rows[0])
     if size < 2 or len(rows) < 3 or any(len(row) != size for row in rows[:-1]):
         return

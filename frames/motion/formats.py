@@ -16,7 +16,7 @@ class Format(NamedTuple):
     # pattern of a line with which the next component begins; empty if a file has one header
     parts: str = ""
     after: int = 0  # lines between the one that `first` finds and the numbers
-    # pattern of the number of samples; of the duration [s], if that is said instead or besides
+    # pattern of the number of samples; of the duration [s], if it is given instead or besides
     size: str = ""
     length: str = ""
     step: str = ""  # pattern of the time step [s]; of the samples a second
@@ -34,7 +34,7 @@ class Format(NamedTuple):
     order: str = "rows"
     # characters of a number if numbers touch; 0 if the header has it or they do not touch
     width: int = 0
-    mean: bool = False  # whether the mean is taken off: raw counts about an offset
+    mean: bool = False  # true if the mean is subtracted: raw counts about an offset
     whole: bool = True  # whether the numbers run to the end of the file, or of the part
 
 

@@ -117,7 +117,7 @@ class GroundMotion(RecordedMotion):
         Raises
         ------
         MotionError
-            If fewer than two samples lie between.
+            If fewer than two samples are between.
         """
         return self._with(transforms.trimmed(self._given(), self.dt, start, end))
 
@@ -294,5 +294,5 @@ def seen_by_steps(motion: GroundMotion, dt: float) -> tuple[FloatArray, float]:
     moved = place[index] + since * velocity[index] + since**2 * (0.5 * start + since * slope / 6.0)
     moved[times < 0.0] = 0.0
     means = (moved[2:] - 2.0 * moved[1:-1] + moved[:-2]) / dt**2
-    means[0] *= 2.0  # half of the first triangle lies before the motion
+    means[0] *= 2.0  # half of the first triangle is before the motion
     return np.ascontiguousarray(means), dt

@@ -80,7 +80,7 @@ class MotionData:
         return self._made(x, y, z, step, self.name if name is None else name)
 
     def __reduce__(self) -> tuple[Callable[..., Self], tuple[object, ...]]:
-        # copies and pickles are made anew: arrays that are copied one by one can be written to
+        # copies and pickles are built anew: arrays copied one by one would be writeable
         return type(self)._made, (self.x, self.y, self.z, self.dt, self.name)
 
     @property

@@ -339,7 +339,7 @@ class Component(NamedTuple):
 
     @property
     def azimuth(self) -> float | None:
-        """Azimuth [degrees clockwise from north], None if the direction does not say it."""
+        """Azimuth [degrees clockwise from north], None if the direction does not include it."""
         text = plain_direction(self.direction)
         digits = re.fullmatch(r"(\d{1,3})(?:DEG)?", text)
         if digits:

@@ -81,8 +81,8 @@ class RecordedMotion(MotionData):
     ) -> Self:
         """Read files in the formats of networks (`frames.motion.formats.FORMATS`), and PEER AT2.
 
-        Units, time steps and directions are those of the headers. Of K-NET and KiK-net the mean is
-        taken off, because their numbers are counts about an offset.
+        Units, time steps and directions are those of the headers. The mean of K-NET and KiK-net
+        records is subtracted, because their numbers are counts about an offset.
 
         Parameters
         ----------

@@ -134,7 +134,7 @@ def _numbers(name: str, lines: list[str], first: int, points: int) -> FloatArray
     except ValueError:
         numbered = [(k, line) for k, line in enumerate(lines[first:], first + 1) if line.strip()]
     for writing in (Writing(decimal=","), Writing(width=15)):
-        with contextlib.suppress(MotionError):  # that of the usual way names the cause below
+        with contextlib.suppress(MotionError):  # that of the usual format names the cause below
             found = [value for row in rows_of(name, numbered, writing) for value in row]
             if len(found) >= points:
                 return np.array(found, dtype=np.float64)

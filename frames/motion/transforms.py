@@ -123,7 +123,7 @@ LEAST_RECORD = 8.0
 LAST_PART, QUIET, STEADY = 0.2, 0.3, 0.1
 """Share of the samples at the end that decide if a motion has faded [-], and the limits of their
 mean and their scatter, over the peak acceleration [-]. A motion that ends at full strength was cut,
-or made so: its velocity at that point says nothing of a baseline.
+or made so: its velocity at that point is no evidence of a baseline.
 """
 
 LARGEST_CHANGE = 0.05

@@ -92,7 +92,7 @@ def _relative_change(initial: FloatArray, change: FloatArray, length: float, ndm
 def judge_elements(
     model: OpenSeesModel, found: list[Nature], vertical: int, *, accept: bool
 ) -> list[str]:
-    """Refuse elements that no linear stiffness stands for, or that have left their initial one."""
+    """Refuse elements without a linear stiffness, or with a stiffness that has changed."""
     notes = refuse_one_sided(found, accept=accept)
     doubtful = [nature for nature in found if not nature.is_linear]
     changed = changed_elements(model, [nature.element for nature in doubtful])
@@ -122,7 +122,7 @@ def judge_elements(
 def refuse_other_supports(
     model: OpenSeesModel, bases: Collection[int], meant: Collection[int]
 ) -> None:
-    """Refuse supports that carry elements and are neither base nodes nor said to be meant."""
+    """Refuse supports that carry elements and are neither base nodes nor accepted."""
     ndm = model.coordinates.shape[1]
     held = np.all(model.fixed.reshape(-1, model.ndf)[:, :ndm], axis=1).tolist()
     allowed = {*bases, *meant}

@@ -33,7 +33,7 @@ _ALONG = "has a viscous force along the displacement between its nodes, not alon
 _CURVED = "has a force that is not proportional to speed, or a spring and a dashpot in series"
 
 BARS = ("Truss", "Truss2", "CorotTruss", "CorotTruss2")
-"""Classes of elements whose uniaxial material sees a strain."""
+"""Classes of elements whose uniaxial material has a strain."""
 
 _ELASTIC_SECTIONS = (
     "ElasticSection2d",
@@ -70,7 +70,7 @@ class Nature(NamedTuple):
 
 @dataclass
 class _Reader:
-    # Asks for each law once.
+    # Reads each law once.
     ops: Any
     printed: Printed
     span: float
@@ -141,7 +141,7 @@ def natures(ops: Any, model: OpenSeesModel) -> list[Nature]:
 
 
 def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
-    """Refuse bars and springs that a linear stiffness cannot stand for: gaps, ties, dashpots."""
+    """Refuse bars and springs without a representative linear stiffness: gaps, ties, dashpots."""
     bad = [
         (nature.element, law)
         for nature in found

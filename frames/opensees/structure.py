@@ -168,7 +168,7 @@ _FEW = 0.5  # of the same, below which that is worth a note
 def with_vertical_mass(
     structure: Structure, given: str | Mapping[int, float] | None
 ) -> tuple[SparseMatrix, list[str]]:
-    """Return the mass of a structure with the vertical mass that was asked for."""
+    """Return the mass of a structure with the vertical mass of the option."""
     mass = structure.matrices["mass"]
     own = lumped(mass)
     rises = ~structure.fixed[:, 2]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from lir_element import LIRBearing
 
-_MARGIN = 0.12  # of the width, for the dimensions at each side
+_MARGIN = 0.12  # of the width, for the dimensions on each side
 
 
 def bearing_dimensions(

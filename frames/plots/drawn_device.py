@@ -26,7 +26,7 @@ class Device:
     radii: tuple[float, float]  # radius of the bottom and of the top surface [m]
     slider_height: float  # of the whole slider, on its axis and in plan [m]
     slider_radius: float
-    # sliding at which each rim is met [m]; infinite without rims
+    # sliding at rim contact [m]; infinite without rims
     rim_displacement: tuple[float, float]
     is_dcfp: bool  # whether the slider is rigid
 

@@ -29,7 +29,7 @@ _NAMED = 12  # names that a message lists in full
 def as_systems(
     systems: Systems, start: float | None = None, end: float | None = None
 ) -> dict[str, xr.Dataset]:
-    """Return systems by name, in a window of time; a single Dataset goes by its title."""
+    """Return systems by name, in a window of time; a single Dataset has its title as name."""
     given: object = systems  # callers may not check their types
     if isinstance(given, xr.Dataset):
         found: dict[str, object] = {str(given.attrs.get("title", "result")): given}
@@ -167,7 +167,7 @@ def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> st
 
 
 def step_at(data: xr.Dataset, time: float) -> int:
-    """Return the recorded step nearest to a time; a ValueError if that lies outside of them."""
+    """Return the recorded step nearest to a time; a ValueError if it is outside of them."""
     times = data["time"].to_numpy()
     if not times[0] <= time <= times[-1]:
         msg = f"time = {time:g} s lies outside of the result, {times[0]:g} to {times[-1]:g} s"
@@ -176,7 +176,7 @@ def step_at(data: xr.Dataset, time: float) -> int:
 
 
 def need(data: xr.Dataset, names: Collection[str], why: str) -> None:
-    """Raise a ValueError that says why, if the Dataset lacks one of `names`."""
+    """Raise a ValueError with the reason, if the Dataset lacks one of `names`."""
     missing = [name for name in names if name not in data.variables]
     if missing:
         msg = f"the Dataset has no {', '.join(missing)}: {why}"

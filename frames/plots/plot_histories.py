@@ -70,7 +70,7 @@ def histories(
     Raises
     ------
     ValueError
-        If a quantity or the bearing is unknown, or nothing lies in the window.
+        If a quantity or the bearing is unknown, or nothing is in the window.
 
     Examples
     --------
@@ -237,7 +237,7 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     spots, at = np.unique(places.round(_SAME_PLACE), axis=0, return_inverse=True)
     apart, names = _nearest(spots), data["bearing"].to_numpy()
     for k, (x, y) in enumerate(spots):
-        own = np.flatnonzero(at.ravel() == k)  # several stand under some columns
+        own = np.flatnonzero(at.ravel() == k)  # some columns have several
         worst = own[share[own].argmax()]
         face = colours.to_rgba(share[worst])
         panel.add_patch(Circle((x, y), 0.22 * apart, facecolor=face, edgecolor=ps.GREY))

@@ -139,8 +139,8 @@ def orbits(
     Returns
     -------
     Figure
-        A panel for each system, equal scales; the largest displacement and the end are marked.
-        The circle stands for parallel plates and sliders that have not slipped yet.
+        A panel for each system, equal scales; the largest displacement and the end are marked. The
+        circle is for parallel plates and sliders without slip.
 
     Raises
     ------

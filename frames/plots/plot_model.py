@@ -1,4 +1,4 @@
-"""Figures of a model in space: as it stands, at an instant of a time history, in its modes."""
+"""Figures of a model in space: at rest, at an instant of a time history, in its modes."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def model_film(
     ModelError
         If the time history is not one of this model.
     ValueError
-        If nothing lies in the window, or a factor is not positive.
+        If nothing is in the window, or a factor is not positive.
 
     Examples
     --------
@@ -210,7 +210,7 @@ def mode_shapes(model: FrameData, count: int = 3, bearings: BearingStiffness = "
     Raises
     ------
     ValueError
-        If more than six are asked for.
+        If `count` is above six.
     ModelError
         As for `frames.modes`.
 
@@ -336,7 +336,7 @@ def _parts(
         drawn += panel.plot(*np.array(released).T, **dots, **look)
     for _, i, j, _ in system.bearings:
         ends = place[[i, j]]
-        look = {"color": BEARINGS, "zorder": 5}  # above the masses, which stand on them
+        look = {"color": BEARINGS, "zorder": 5}  # above the masses over them
         drawn += panel.plot(*ends.T, linewidth=3.0, solid_capstyle="butt", **look)
         drawn += panel.plot(*ends[1:].T, markersize=4.5, label="bearings", **dots, **look)
     if model.hinges:

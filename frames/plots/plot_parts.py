@@ -174,8 +174,7 @@ def link_loops(
     systems : Dataset or mapping of name to Dataset
         Results to compare.
     links : str or sequence of str, optional
-        Names of one to six links; those that have taken up the most work in the first result if
-        left out.
+        Names of one to six links; by default those with the largest work in the first result.
     start, end : float, optional
         Window of time [s].
 

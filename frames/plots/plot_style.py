@@ -213,7 +213,7 @@ def _said(inner: Formatter, say: Callable[[str], str]) -> Formatter:
 
 
 class _Said(Formatter):
-    """Labels of an axis as `say` says them."""
+    """Labels of an axis in the words of `say`."""
 
     def __init__(self, inner: Formatter, say: Callable[[str], str]) -> None:
         super().__init__()

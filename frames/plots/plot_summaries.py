@@ -89,7 +89,7 @@ def storey_profiles(
     Raises
     ------
     ValueError
-        If a model has fewer than two levels, or nothing lies in the window.
+        If a model has fewer than two levels, or nothing is in the window.
 
     Examples
     --------
@@ -240,7 +240,7 @@ def energy(
     Raises
     ------
     ValueError
-        If nothing lies in the window, or the Dataset has no energies.
+        If nothing is in the window, or the Dataset has no energies.
 
     Examples
     --------

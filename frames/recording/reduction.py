@@ -29,15 +29,15 @@ _SAME_TIME = 1e-9  # s: times that differ by less are one
 
 
 class _Held(NamedTuple):
-    # Steps that a later rim contact may still ask for.
+    # Steps that a later rim contact may still need.
     columns: Columns  # variables (n, ...)
     step: IntArray  # (n,)
-    met: BoolArray  # (n,) a rim was met
+    met: BoolArray  # (n,) rim contact
 
 
 class _State(NamedTuple):
     # State of the reduction; replaced in one assignment, so that no interruption finds half of it.
-    taken: int  # base steps taken up, the first one (at rest) included
+    taken: int  # base steps processed, the first one (at rest) included
     parts: tuple[Columns, ...]  # recorded part, piece by piece
     held: _Held | None
     last_contact: float  # s

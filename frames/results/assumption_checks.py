@@ -153,7 +153,7 @@ def needed_level(findings: tuple[Finding, ...]) -> str:
 
 
 def asking_for_contact(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
-    """Return the findings that ask for the level "contact" for some bearings."""
+    """Return the findings that need the level "contact" for some bearings."""
     return tuple(f for f in findings if f.bearings and f.feature in _ASKING)
 
 
@@ -223,7 +223,7 @@ def _loose_slip(data: xr.Dataset) -> str:
         return ""
     slips, moved = largest(data, "slip").values, largest(data, "displacement").values
     tilts = data.variables["rim_displacement"].values / data.variables["radius"].values
-    room = data.variables["length"].values * tilts.min(axis=1)  # until a rim is met
+    room = data.variables["length"].values * tilts.min(axis=1)  # until rim contact
     free = bodies * np.minimum(summed(data, "slip_loose"), slips - np.maximum(moved - room, 0.0))
     k = int(np.argmax(free))
     by, least = float(free[k]), BARE * float(data.variables["slider_radius"].values[k])

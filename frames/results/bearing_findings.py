@@ -22,14 +22,15 @@ KERN = 0.25
 """Eccentricity over slider radius up to which a circular contact is closed all over."""
 
 HOLDS = 0.8
-"""Slip over its stable limit s* without rims, `slip_stability`, from which a run says so."""
+"""Slip over its stable limit s* without rims, `slip_stability`, above which it is reported."""
 
 OVERLAPS = 0.9
 """The same over the slip at which the sliders' overlap ends, `slip_capacity`."""
 
 SPUN = 0.5
-"""Spin of the sliders [rad] beyond which the level 'contact' is asked for: the residual slip
-depends on it (docs/validation/slip.md)."""
+"""Spin of the sliders [rad] above which the level 'contact' is needed: the residual slip depends on
+it (docs/validation/slip.md).
+"""
 
 EDGE = 0.5
 """Eccentricity over slider radius beyond which one edge carries nearly all."""
@@ -94,7 +95,7 @@ def full_contact(data: xr.Dataset) -> Finding:
 
 
 def slip_stability(data: xr.Dataset) -> Finding:
-    """Judge whether the slip that is left holds."""
+    """Check the stability of the residual slip."""
     # docs/theory.md (2.7), with the friction of high speed; a rigid slider holds without end
     friction = data.variables["interface_friction"].values
     rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
@@ -146,7 +147,7 @@ def slip_stability(data: xr.Dataset) -> Finding:
 
 
 def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
-    """Judge whether rims were met with a slip."""
+    """Check rim contact with a slip."""
     # docs/theory.md (2.9): force from the axial stiffness and the closing speed. The first contact
     # is without slip, and old files lack the stiffness: no finding.
     if "axial_stiffness" not in data.variables:
@@ -184,7 +185,7 @@ def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
 
 
 def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
-    """Judge whether elastic sliding before slip counts."""
+    """Check the effect of elastic sliding before slip."""
     # Up to L Q/W friction holds a bearing at any place: a displacement in that range depends on the
     # whole earlier motion (docs/limits.md).
     if "yield_displacement" not in data.variables:
@@ -234,7 +235,7 @@ damping does not include the rotations by axial forces (docs/theory.md, 5).
 """
 
 ROUGH = 0.05
-"""Estimated error of a given step over the displacement reached from which on a run says so."""
+"""Estimated error of a given step over the peak displacement above which it is reported."""
 
 _LIGHT = 1e-2  # of the nodes' mean mass: a node that weighs next to nothing beside the others
 
@@ -244,7 +245,7 @@ strength at 4 to 11 yield rotations (ASCE/SEI 41-17, chapter 9), others before."
 
 
 def equilibrium(data: xr.Dataset) -> tuple[Finding, ...]:
-    """Judge whether forces, weight and inertia agree, and whether nodes moved beyond reason."""
+    """Check the equilibrium of forces, weight and inertia, and the motion of nodes."""
     if "imbalance" not in data and "peak_imbalance" not in data:
         return ()
     gaps = largest(data, "imbalance")
@@ -302,7 +303,7 @@ def _violence(data: xr.Dataset) -> tuple[Finding, ...]:
 
 
 def time_step(data: xr.Dataset) -> tuple[Finding, ...]:
-    """Judge the step of a run whose step was given."""
+    """Check a given step of a run."""
     error = float(data.attrs.get("estimated_error", np.nan))
     if data.attrs.get("step_control") != "fixed" or not np.isfinite(error):
         return ()
@@ -321,7 +322,7 @@ def time_step(data: xr.Dataset) -> tuple[Finding, ...]:
 
 
 def yielding(data: xr.Dataset) -> tuple[Finding, ...]:
-    """Judge how far hinges turned."""
+    """Check the rotation of hinges."""
     # They keep their strength here; those of steel lose it from about TURNED on.
     if "hinge" not in data.dims:
         return ()
@@ -343,7 +344,7 @@ def yielding(data: xr.Dataset) -> tuple[Finding, ...]:
 
 
 def strained(data: xr.Dataset) -> tuple[Finding, ...]:
-    """Judge whether imported members, which stay elastic, would have yielded."""
+    """Check if imported members, which stay elastic, would have yielded."""
     most = float(data.attrs.get("strain_over_limit", 0.0))
     if most <= 1.0:
         return ()

@@ -1,8 +1,8 @@
 """Positions of a bearing's bodies: numbers for drawing its vertical section to scale.
 
-Everything lies in one vertical plane through the bottom plate's axis; a point is (horizontal,
-vertical), in m, from the vertex of the bottom concave surface. Displacements across that plane
-are left out. Notation and signs: docs/conventions.md.
+The section is in one vertical plane through the bottom plate's axis; a point is (horizontal,
+vertical), in m, from the vertex of the bottom concave surface. Displacements across that plane are
+left out. Notation and signs: docs/conventions.md.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Geometry(Protocol):
 
     @property
     def rim_displacement(self) -> tuple[float, float]:
-        """Sliding at which each rim is met."""
+        """Sliding at rim contact."""
 
     @property
     def is_dcfp(self) -> bool:

@@ -150,7 +150,7 @@ def _bytes(texts: Any) -> Any:
 
 
 def _texts(values: Any, kind: str) -> Any:
-    # Values as they were given: texts, which stand there as bytes, as texts.
+    # Values as they were given: texts, which are stored as bytes, as texts.
     if values.dtype.kind != "S":
         return values
     found = [text.decode() for text in values.ravel().tolist()]

@@ -41,7 +41,7 @@ class Finding:
     doubtful : bool
         True if an effect in play needs attention.
     bearings : tuple of str
-        At the level "pendulum", for which it asks for the level "contact".
+        Bearings at the level "pendulum" that need the level "contact".
 
     Examples
     --------

@@ -52,7 +52,7 @@ class Class(NamedTuple):
 SHORT_TRAVEL, LONG_TRAVEL = 1.5, 3.0
 """Travels of bearings whose surfaces differ in friction [-]: `travels`."""
 STILL = 0.003
-"""Displacement over the effective radius below which nothing is said of a bearing [-]."""
+"""Displacement over the effective radius below which a bearing has no finding [-]."""
 
 UNEQUAL = Class("unequal rims that were met", (0.02, 0.27, 0.19, 2.2, 1.3))
 LIFTED = Class("uplift and rims that were met", (0.01, 0.16, 0.18, 0.20, 1.2))
@@ -183,7 +183,7 @@ def _of_bearings(data: xr.Dataset, name: str) -> FloatArray:
 
 
 def rims_are_unequal(reach: FloatArray, radius: FloatArray) -> BoolArray:
-    """Return whether one rim is met before the other: (n_bearings,) of arrays (n_bearings, 2)."""
+    """Return True for bearings (n_bearings,) whose rims differ in reach (n_bearings, 2)."""
     with np.errstate(invalid="ignore"):  # no rims: both infinite
         slopes = reach / radius
         return np.asarray(np.abs(slopes[:, 0] - slopes[:, 1]) > 1e-6 * np.abs(slopes[:, 0]))

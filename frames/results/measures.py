@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _ROUND_OFF = 1e-9  # m, of coordinates
 
 ABSORBED = ENERGY_TERMS[1:]
-"""Terms of the energy that take up the input."""
+"""Terms of the energy that balance the input."""
 
 
 def energy_error(data: xr.Dataset) -> float:
@@ -73,9 +73,9 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
     -------
     xarray.DataArray
         Drift ratio (time, storey, axis x and y) [-]: the mean of `drift_by_line` over the lines of
-        the storey. Nodes that stand in one of both levels alone do not count. These are
-        components; "storey drift" of `peaks`, of checks and of figures is the size of the vector
-        of both, and never exceeds that of the worst line.
+        the storey. Nodes in only one of both levels do not count. These are components; "storey
+        drift" of `peaks`, of checks and of figures is the size of the vector of both, and never
+        exceeds that of the worst line.
 
     Raises
     ------

@@ -1,9 +1,8 @@
 """Peaks of a time history: largest values of derived histories, their times, a few totals.
 
-The assumption check, the judgement of the energy and the table of peaks rest on these numbers
-alone. A result with all steps has them in its histories. A recording that leaves steps out takes
-them up while the run goes on, at every base step, and keeps them as variables ``peak_...``: so
-both give the same.
+The assumption check, the check of the energy and the table of peaks rest on these numbers alone. A
+result with all steps has them in its histories. A recording that leaves steps out computes them
+during the run, at every base step, and keeps them as variables ``peak_...``: so both give the same.
 """
 
 from __future__ import annotations
@@ -99,7 +98,7 @@ def final_if_complete(data: xr.Dataset, name: str) -> FloatArray:
 
 
 def reached(data: xr.Dataset, name: str) -> FloatArray:
-    """Return a quantity of a time history, whichever its kind."""
+    """Return a quantity of a time history, of any kind."""
     kind = QUANTITIES[name].kind
     if kind == "peak":
         return largest(data, name).values

@@ -54,7 +54,7 @@ MOST_BYTES = 64e6
 """Memory that a process keeps analyses in [bytes]; one that is larger is set up each time."""
 
 _REMADE = frozenset({"reduced", "inverse_e", "follow_e", "lead_e", "follow", "pool"})
-# of step sizes: the loop makes them again, as `has_reduced` says
+# of step sizes: the loop renews them, see `has_reduced`
 
 _LEAST = 0.1
 _HOLDING = bearing_axial_stiffness, bearing_rocking_stiffness
@@ -236,7 +236,7 @@ class PreparedFrame:
         return alike and all(a is b for a, b in zip(self.parts, parts, strict=True))
 
 
-_KEPT: list[PreparedFrame] = []  # the one asked for last at the end
+_KEPT: list[PreparedFrame] = []  # the last one used is at the end
 
 
 def analysis_of(

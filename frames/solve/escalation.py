@@ -87,7 +87,7 @@ def _next(
     missing = [f for f in findings if f.is_missing and f.feature in out]
     if missing:
         wider = features.including(*(f.feature for f in missing))
-        if wider.rims and not features.rims:  # a rigid slider would break the rims that are met
+        if wider.rims and not features.rims:  # a rigid slider would break its rims
             wider = wider.including("interface")
         return wider, level, "again, for " + "; ".join(f.sentence for f in missing)
     asking = asking_for_contact(findings)

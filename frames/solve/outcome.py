@@ -33,7 +33,7 @@ LEAST_INPUT = 1e-6
 
 
 TUMBLED = 0.3
-"""Tilt of a slider beyond the one at its rim from which on it no longer lies but tumbles [rad]."""
+"""Tilt of a slider beyond the one at its rim above which it tumbles [rad]."""
 
 
 RESOLVED = 0.3
@@ -87,7 +87,7 @@ def energy_status(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]
 
 
 def _noted(name: str, number: float, text: str) -> tuple[Finding, ...]:
-    # Not marked: the status says so, or a warning.
+    # Not marked: the status shows it, or a warning.
     return (
         remark(
             name.replace(" ", "_"),
@@ -123,7 +123,7 @@ def _tumbled(data: xr.Dataset) -> str:
 def final_status(
     data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str]
 ) -> tuple[Outcome, Findings]:
-    """Check the assumptions of a run and judge it."""
+    """Return the status of a run after the check of its assumptions."""
     status, detail = end
     data.attrs |= _exceeded(state, status)
     findings = audit(data)

@@ -115,7 +115,7 @@ class _Buffer:
         self.first = 0
         """Base step in the first row of `out`."""
         self.seconds = 0.0
-        """Time taken by emptying [s]."""
+        """Time of emptying [s]."""
         self.strains.reset()
 
     def begin(self) -> None:
@@ -132,12 +132,12 @@ class _Buffer:
         self._empty(rows)
         for array in self.out:
             array[:kept] = array[rows - kept : rows]
-        self.first = done + 1 - kept  # last: an interruption before leaves all to be taken up
+        self.first = done + 1 - kept  # last: an interruption before leaves all to be recorded
         self.seconds += perf_counter() - began
         return self.first + self._rows - 1
 
     def _empty(self, rows: int) -> None:
-        # Take up the first rows, as far as they are new.
+        # Record the first rows, as far as they are new.
         raise NotImplementedError
 
 

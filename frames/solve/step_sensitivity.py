@@ -25,7 +25,7 @@ NOISE = 1e-9
 SENSITIVE = 0.01
 """Difference by that noise, over the value, from which on a peak is chance."""
 
-_FINER = 0.25  # of the tolerance: half the steps, for the error grows with their square
+_FINER = 0.25  # of the tolerance: half the steps, because the error grows with their square
 _TOLERANCE = 1e-3  # default, as of `time_history`
 _OF_RUN = ("energy balance: error over input", "duration computed", "seconds of the time loop")
 _HISTORY = "bearing displacement, whole history"
@@ -67,8 +67,8 @@ def step_sensitivity(
     Warns
     -----
     AuditWarning
-        If noise changes the displacements by more than 1 %: no step makes their peak exact, and
-        several disturbed motions have to be judged; or if the halved step does.
+        If noise changes the displacements by more than 1 %: no step makes their peak exact, so use
+        the envelope of several disturbed motions; or if the halved step does.
 
     Examples
     --------

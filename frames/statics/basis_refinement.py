@@ -28,7 +28,7 @@ ROUNDS = 5
 """Runs at most."""
 
 ALL = 0.8
-"""Share of all modes from which on all are taken."""
+"""Share of all modes above which all are used."""
 
 BEARINGS, FLOORS, VERTICAL = 1.0, 10.0, 100.0
 """Factors on the tolerance: floors, storeys and axial forces follow impacts, and the vertical
@@ -104,7 +104,7 @@ def differences(coarse: Reached, fine: Reached) -> dict[str, float]:
 
 
 def exceeding(errors: dict[str, float], tolerance: float) -> str:
-    """Return which errors exceed the tolerance asked for, in words; an empty string if none."""
+    """Return the errors above the tolerance, in words; an empty string if none."""
     too_large = [
         worded(
             "{quantity} {error:.2g} % (asked for: {allowed:g} %)",

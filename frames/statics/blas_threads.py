@@ -32,8 +32,8 @@ def _controller() -> ThreadpoolController:
 def blas_threads_for(*models: FrameData) -> Generator[None, None, None]:
     """Keep the dense algebra of small models on one thread.
 
-    The setting is that of the whole process: it is made, and taken back, by the first of those who
-    ask for it at the same time.
+    The setting is that of the whole process: the first of several simultaneous users makes and
+    undoes it.
     """
     is_large = any(6 * len(model.nodes) >= _SMALL for model in models)
     if is_large or not _TAKEN.acquire(blocking=False):

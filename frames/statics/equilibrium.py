@@ -45,7 +45,7 @@ _YIELDS = ("yield_displacement", "interface_yield", "torsion_yield")
 
 
 class Equilibrium(NamedTuple):
-    """A frame in equilibrium, as the kernels see it."""
+    """A frame in equilibrium, with the arrays of the kernels."""
 
     model: ReducedModel
     run: IntegrationState
@@ -107,7 +107,7 @@ def _softened(
     solve: Callable[[FloatArray], tuple[RunStatus, IntegrationState, Contacts | None]],
     guess: FloatArray,
 ) -> tuple[RunStatus, IntegrationState, Contacts | None] | None:
-    # Follow the equilibrium from soft friction to the true one; None if no way leads there.
+    # Follow the equilibrium from soft friction to the true one; None if no path leads there.
     true = {name: model.props[name].copy() for name in _YIELDS}
     try:
         for softness in _SOFTNESSES:
@@ -185,7 +185,7 @@ def _raise_failure(
     system: System, run: IntegrationState, status: RunStatus, linear: FloatArray
 ) -> None:
     # A bearing that lifts is the cause, for any end of Newton's method; then limits. Lifting in
-    # Newton's last trial says nothing: the linear solution does.
+    # Newton's last trial is no evidence: the linear solution is.
     lifted = run.new["axial_force"] <= 0.0
     beyond = np.flatnonzero(run.new["status"] != int(RunStatus.OK))
     if status is RunStatus.OK and not (lifted.any() or len(beyond)):
@@ -224,7 +224,7 @@ def put_at_rest(system: System, parts: NonlinearElements, displacement: FloatArr
     """
     found = system.parts
     d = np.asarray(system.part_rows @ displacement)
-    d[np.abs(found.elastic) <= 0.0] = 0.0  # put in later
+    d[np.abs(found.elastic) <= 0.0] = 0.0  # added later
     refuse_yielding(found, d)
     parts.d_old[:], parts.d[:] = d, d
     for k in np.flatnonzero(found.kind == BOUC_WEN):

@@ -165,7 +165,7 @@ def _held(load: BearingLoad) -> str:
 
 
 def check_model(frame: FrameData, motion: GroundMotion | None = None) -> ModelCheck:
-    """Add up a model, and judge it: `Frame.check`."""
+    """Sum up a model, and check it: `Frame.check`."""
     sanity_checks.refuse_extent(frame)
     system = assemble(frame)
     masses = system.node_mass[:, :3].sum(axis=0)

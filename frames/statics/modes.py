@@ -143,7 +143,7 @@ def modes(
     shapes = np.asarray(system.transform @ q).reshape(-1, 6, len(omega2))
     shares = (system.inertia_load.T @ q) ** 2
     total = system.node_mass[:, :3].sum(axis=0)
-    total[~total.astype(bool)] = np.inf  # a plane model: nothing takes part out of its plane
+    total[~total.astype(bool)] = np.inf  # a plane model: no mass moves out of its plane
     moment, turned = _turning(system)
     torsion = (turned @ q) ** 2 / (moment or np.inf)
     return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T, torsion)

@@ -94,7 +94,7 @@ def overturning_share(system: System) -> Overturning:
         sideways = np.zeros((len(mass), 6))
         sideways[:, axis] = mass
         if not np.asarray(system.transform.T @ sideways.ravel()).any():
-            shares.append(1.0)  # no motion that way
+            shares.append(1.0)  # no motion in that direction
             continue
         upright = np.zeros((len(mass), 6))
         lever = system.coordinates[tops, axis] - system.coordinates[tops, axis].mean()

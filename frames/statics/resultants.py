@@ -170,7 +170,7 @@ class Resultants:
 
 
 def _times(steps: FloatArray, rows: FloatArray) -> FloatArray:
-    # Rows times each step: the same to the last digit however many steps are taken at once.
+    # Rows times each step: the same to the last digit for any number of steps at once.
     return np.asarray(np.einsum("ti,ki->tk", steps, rows))
 
 

@@ -34,13 +34,14 @@ USUAL_LOAD_RATIO = (0.15, 6.0)
 """Load of all bearings over their design loads, if those are given [-]."""
 
 DENSEST, LIGHTEST = 3000.0, 5.0
-"""Mass above the bearings over the space that it fills [kg/m3]: that of solid concrete, and a
-tenth of the lightest steel hall's. Asked of structures of more than `LEAST_SPAN` each way."""
+"""Mass above the bearings over its volume [kg/m3]: that of solid concrete, and a tenth of the
+lightest steel hall's. For structures of more than `LEAST_SPAN` in each direction.
+"""
 
 LEAST_SPAN = 2.0
 
 STRONG_GROUND, FEEBLE = 50.0, 1e-3
-"""Peak ground acceleration above all that was recorded; one below which nothing is said [m/s2]."""
+"""Peak ground acceleration above all recorded ones; one below which there is no doubt [m/s2]."""
 
 
 class BearingLoad(NamedTuple):

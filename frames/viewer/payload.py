@@ -39,7 +39,7 @@ SHAPE_ERROR = 1e-3
 """Allowed error of nodal displacements by their shapes, over the largest displacement [-]."""
 
 _FEWEST = 200  # steps that are kept, however large the model
-_SHAPES = 40  # that a step is reckoned to have, before they are found
+_SHAPES = 40  # assumed size of a step, before it is known
 _SNAPSHOTS = 800  # instants that shapes are found from, at most
 _ARM = 3.0  # m, by which rotations of nodes count
 
@@ -83,7 +83,7 @@ class ShownCheck(Protocol):
 class Payload(NamedTuple):
     """Data of the page, and the numbers of its steps and of all steps."""
 
-    content: dict[str, object]  # as JSON takes it
+    content: dict[str, object]  # for JSON
     kept: int  # numbers of steps
     recorded: int
 
@@ -301,8 +301,8 @@ WINDOW = 0.02
 def kept_steps(time: FloatArray, curves: FloatArray, contact: BoolArray, count: int) -> IntArray:
     """Return the steps between which straight lines follow the curves best.
 
-    The first and the last step and the extremes of each curve are kept. Then, again and again,
-    the step that lies farthest off the line between its kept neighbours.
+    The first and the last step and the extremes of each curve are kept. Then, repeatedly, the step
+    that is farthest off the line between its kept neighbours.
 
     Shapes: time (n_steps,), curves (n_steps, m), contact (n_steps,).
     """

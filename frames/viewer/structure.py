@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 def structure_of(model: FrameData, system: System) -> dict[str, object]:
-    """Return the model as it stands, and how its members follow the nodes."""
+    """Return the model at rest, and the displacements of its members by those of the nodes."""
     index = {name: k for k, name in enumerate(system.node_names)}
     table = system.members
     kinds, of_kind = _bending(system)
@@ -97,7 +97,7 @@ def scaled(values: npt.ArrayLike, *, along: int = 0) -> Packed:
     """Return histories in 16 bits."""
     array = np.asarray(values, dtype=np.float64)
     largest = np.abs(array).max(axis=along, keepdims=True)
-    # in single precision, as it is read: the numbers are found with the same scale
+    # in single precision, as the page reads it: the numbers use the same scale
     scale = (largest / STEPS).astype(np.float32).astype(np.float64)
     numbers = np.rint(array / np.where(scale > 0.0, scale, 1.0)).clip(-STEPS, STEPS)
     return {

@@ -88,7 +88,7 @@ def fields_of(signature: Any) -> tuple[tuple[str, ...], ...]:
 
 
 class Sources:
-    """The sources that the kernels of some packages depend on, as this process found them.
+    """Sources that the kernels of some packages depend on, as first read by this process.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A word while kernels compile: the first run takes ten seconds to a minute.
+"""Message while kernels compile: the first run compiles for ten seconds to a minute.
 
 Written once to the standard error: a line that names the work and, on a terminal, a bar. Nothing is
 written if the kernels come from the cache, or with LIR_QUIET=1.
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 PATIENCE = 1.0
-"""Seconds of compiling before anything is said: a kernel or two are not worth a word."""
+"""Seconds of compiling before the message: a kernel or two need none."""
 
 _WIDTH = 78
 _BAR = 24
 
 
 def quiet() -> bool:
-    """Return whether LIR_QUIET asks for silence."""
+    """Return True if LIR_QUIET is set."""
     return os.environ.get("LIR_QUIET", "") not in {"", "0"}
 
 
 def say(text: str) -> None:
-    """Write a line to the standard error, unless LIR_QUIET asks for silence."""
+    """Write a line to the standard error, unless LIR_QUIET is set."""
     _write(f"lir-dcfp: {text}\n")
 
 

@@ -1,8 +1,8 @@
 """Kernels that came with the wheel, compiled for the common features of all usual processors.
 
-A wheel may bring a folder of compiled kernels along (`hatch_build.py`), laid out as that of the
-cache. Those are taken that a start would otherwise compile: the same sources, the same Python,
-numba and llvmlite, and a processor with all that they use.
+A wheel may contain a folder of compiled kernels (`hatch_build.py`) in the layout of the cache. They
+are used if sources, Python, numba and llvmlite are the same, and if the processor has all features
+of their code.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ FOLDER = Path(__file__).parents[1] / "_kernels"
 """Folder of the kernels in a wheel; a clone has no such folder."""
 
 Processor = tuple[str, str, str]
-"""Target triple, name and features, as numba hands them to LLVM."""
+"""Target triple, name and features, as numba passes them to LLVM."""
 
 _BASELINES = {
     "x86_64": ("x86-64-v3", "avx,avx2,bmi,bmi2,f16c,fma,lzcnt,movbe,popcnt,sse4.2,xsave"),
     "aarch64": ("generic", ""),
     "arm64": ("generic", ""),
 }
-"""By architecture: the processor compiled for, and the features that it takes for granted.
+"""By architecture: the target processor, and its assumed features.
 
 x86-64-v3 is that of the x86-64 psABI: Intel since Haswell (2013), AMD since Excavator (2015).
 """

@@ -53,7 +53,7 @@ class LIRBearing(Specification):
         (a plain DCFP).
     capacity : float, optional
         Lateral displacement at the first rim contact, plates parallel [m]; ``math.inf`` for a
-        bearing without rims. Both rims are then met together.
+        bearing without rims. Both rims are then reached together.
     rims : float or (float, float), optional
         Sliding displacement at contact with each rim, bottom and top [m]; instead of `capacity` if
         they differ.
@@ -73,8 +73,8 @@ class LIRBearing(Specification):
         Deformation of a rim, plastic deformation included, beyond which it counts as failed [m]:
         the bearing fails. Default: a tenth of the slider's radius.
     flange : float, optional
-        Way that the slider slides on over the plate beyond the place of a rim that has failed, on
-        the same sphere [m]; the bearing fails at its end. Default: none, it fails with the rim.
+        Sliding length over the plate beyond a failed rim, on the same sphere [m]; the bearing fails
+        at its end. Default: none, it fails with the rim.
     slip_capacity : float, optional
         Interface slip beyond which the sliders' overlap no longer carries [m]: the bearing fails.
         Default: the slider's radius (39 % of the area still overlaps).
@@ -111,7 +111,7 @@ class LIRBearing(Specification):
         about the slider's axis [kg m2].
     contact_points : int, optional
         At the levels "contact" and "rigid_body" each face of a slider is a disc on an elastic bed,
-        in closed form. A number has that many contact points instead, to compare: 4 to 7 lie on
+        in closed form. For comparison, a number replaces it by that many contact points: 4 to 7 on
         the slider's edge, an even number from 8 to 64 on two rings, 96, 128, ... on rings of 32.
     allow_weak_interface : bool
         Accept ``mu_h <= mu_d``, with which the device does not work as intended.

@@ -79,7 +79,7 @@ class FrictionValues(NamedTuple):
 
 
 def sampled(name: str, law: Law, largest: float = LARGEST_ERROR) -> FrictionValues:
-    """Return the table of a law, cubic between knots that lie evenly over v / (v + v_ref)."""
+    """Return the table of a law, cubic between knots that are even over v / (v + v_ref)."""
     values = _checked(name, law)
     least, most = float(values[0]), _coefficient(name, law, FASTEST)
     drop = most - least

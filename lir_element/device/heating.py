@@ -75,7 +75,7 @@ class PressureDependence:
         return f"{1e8 * self.rate:.3g} % less a MPa, from {at} on"
 
     def factor(self, pressure: float, reference: float | None = None) -> float:
-        """Return k_p [-] at `pressure`; `reference` [Pa] stands for a reference left open."""
+        """Return k_p [-] at `pressure`; `reference` [Pa] is used if the bearing's is not set."""
         p_0 = self.reference_pressure if self.reference_pressure is not None else reference
         if p_0 is None:
             msg = "reference_pressure is open: give it, or `reference`, the design pressure [Pa]"

@@ -42,8 +42,8 @@ class BackupSupport:
     Parameters
     ----------
     drop : float
-        Way that the top plate comes down from its undeformed place until the stop carries [m], at
-        least 0; ``math.inf``: there is no stop.
+        Vertical displacement of the top plate from its undeformed place to the stop [m], at least
+        0; ``math.inf``: there is no stop.
     friction : float
         Friction coefficient of the stop [-], at least 0 and below 1.
     stiffness : float, optional
@@ -59,7 +59,7 @@ class BackupSupport:
     Notes
     -----
     The stop is assumed to be wide enough for every position of the structure. Its force acts under
-    the top node, whose rotation meets no resistance; the resulting moment acts on the bottom node.
+    the top node, which rotates without resistance; the resulting moment acts on the bottom node.
     Its friction is that of the surfaces (docs/theory.md, section 3): elastic sliding by the
     bearing's `yield_displacement`, then slip.
 
@@ -147,7 +147,7 @@ class Specification:
         default=0.005,
         metadata=number(
             "-",
-            "[1e-4, 1)",  # with none the force would not tell how far it goes: a choice
+            "[1e-4, 1)",  # with zero the force would not determine the displacement: a choice
             "stiffness of a yielding rim over the elastic one",
             remedy="it is the stiffness of a rim that yields over its elastic one, some 0.005 of "
             "steel",
@@ -241,7 +241,7 @@ class Specification:
 
     @property
     def rim_displacement(self) -> tuple[float, float]:
-        """Sliding on the bottom and the top surface at which its rim is met [m]."""
+        """Sliding at rim contact on the bottom and the top surface [m]."""
         if self.rims is not None:
             bottom, top = as_pair("rims", self.rims)
             return as_number("rims", bottom, "m"), as_number("rims", top, "m")

@@ -73,7 +73,7 @@ def own_connections() -> list[Any]:
 
 
 def _accept_own(listener: socket.socket, port: int, tag: int) -> socket.socket:
-    # Take the connection that this process made; whoever else knocked is sent away.
+    # Accept the connection of this process; all others are closed.
     own = {each.laddr.port for each in own_connections() if each.raddr.port == port}
     while own:
         try:
@@ -138,7 +138,7 @@ def calls_uninterrupted() -> Generator[None]:
 def restart_reads(*numbers: int, restart: bool | None = None) -> None:
     """Restart reads after signals that Python handles, if OpenSees cannot be kept from them.
 
-    `restart` switches that for all signals from now on; `numbers` were given a handler anew.
+    `restart` switches that for all signals from now on; `numbers` got new handlers.
     """
     if restart is not None:
         _READS["restart"] = restart

@@ -131,7 +131,7 @@ class ElementMemory:
         return self.messages[int(self._telling[0])] if self._telling[0] else ""
 
     def outcome(self) -> tuple[int, bool, float]:
-        """Return how the analysis stands."""
+        """Return the state of the analysis."""
         block = self.block
         refused, unfinished = int(block["refused"][0]), bool(block["unfinished"][0])
         return refused, unfinished, self.committed_time

@@ -70,7 +70,7 @@ class Isolation:
     grounds : dict of int to int
         Tags of the fixed nodes below, by base node.
     routes : dict of int to str
-        Routes taken, "fast" or "portable", by base node.
+        Coupling routes, "fast" or "portable", by base node.
     released : dict of int to tuple of int
         Degrees of freedom (1 to 6) of the base nodes that were fixed and are free now.
     held : dict of int to tuple of int
@@ -168,8 +168,8 @@ def isolate(
     base_diaphragm : bool
         True if base nodes at one elevation move in plan as one rigid body, as on a base slab.
     tags, ground_tags : sequence of int, optional
-        Tags of the new elements and of the fixed nodes, one for each base node; free ones above
-        the largest are taken if None.
+        Tags of the new elements and of the fixed nodes, one for each base node; if None, free ones
+        above the largest.
     length_unit, force_unit : float
         The model's units [m], [N]: 0.001 and 1000 for mm and kN. Time is in seconds.
     tangent : {"consistent", "symmetric"}

@@ -1,4 +1,4 @@
-"""Find openseespy, whichever of its builds is installed."""
+"""Import of openseespy in any of its builds."""
 
 from __future__ import annotations
 

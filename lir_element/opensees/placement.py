@@ -19,7 +19,7 @@ _NDF = {2: 3, 3: 6}
 
 
 class PlacementWarning(UserWarning):
-    """A bearing that may not stand as it was meant to.
+    """Warning: a bearing may not be placed as intended.
 
     Examples
     --------

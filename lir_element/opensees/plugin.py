@@ -76,7 +76,7 @@ class _Session:
             self.forked_elements.close()
 
     def forget(self) -> None:
-        """Start anew in a forked process: connections and server are the parent's."""
+        """Reset in a forked process: connections and server are the parent's."""
         remotes = self._remotes()
         self.bearings = {
             tag: each for tag, each in self.bearings.items() if isinstance(each, InProcessElement)
@@ -143,7 +143,7 @@ def bearing_element(
     Returns
     -------
     str
-        The route taken, "fast" or "portable".
+        The coupling route, "fast" or "portable".
 
     Raises
     ------
@@ -154,10 +154,10 @@ def bearing_element(
 
     Notes
     -----
-    The tangent is unsymmetric, as friction follows the axial force: choose a system of equations
-    that takes that (UmfPack, BandGeneral, FullGeneral). A symmetric one takes half of the tangent
-    and finds no equilibrium; for it there is ``tangent="symmetric"``, which leaves out that axial
-    forces act on friction. Answers are the same, with more iterations.
+    The tangent is unsymmetric, because friction depends on the axial force: choose a system of
+    equations for unsymmetric matrices (UmfPack, BandGeneral, FullGeneral). A symmetric one uses
+    half of the tangent and finds no equilibrium; ``tangent="symmetric"`` is for it, and leaves out
+    the effect of axial forces on friction. Answers are the same, with more iterations.
 
     Without velocities a trial is static, as for OpenSees' own bearings: friction then is that at
     low speed. A step that leads beyond a limit of the bearing is committed, and the next one fails;

@@ -183,7 +183,7 @@ def body_variables(step: str, bodies: Records, displacement: Floats) -> dict[str
 
     Shapes: bodies (n_steps, n_bearings), displacement (n_steps, n_bearings, 12).
     """
-    from scipy.spatial.transform import Rotation  # as long to import as numba, for this level
+    from scipy.spatial.transform import Rotation  # as slow to import as numba, for this level
 
     dims = (step, "bearing", "body", "axis")
     turns = Rotation.from_quat(bodies["turn"][..., :2, :].reshape(-1, 4), scalar_first=True)
@@ -222,7 +222,7 @@ def some_bodies(
 
 
 def rims_give_way(props: Records) -> bool:
-    """Return whether rims of any bearing yield, or break and let the slider go on."""
+    """Return True if rims of any bearing yield, or break and let the slider go on."""
     return bool((np.isfinite(props["rim_yield_force"]) | (props["flange"] > 0.0)).any())
 
 

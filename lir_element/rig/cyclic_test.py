@@ -1,4 +1,4 @@
-"""The testing rig: a bearing taken through a lateral path under axial load."""
+"""The testing rig: a bearing on a lateral path under axial load."""
 
 from __future__ import annotations
 

@@ -61,9 +61,9 @@ class Check:
     scope : {"any", "demand", "procedure", "agreement", "minimum"}
         Scope of the check: any analysis; a demand that a time history finds anew; a limit of the
         equivalent-linear procedure; a solution without a rule in the code; or a least value of a
-        demand. If its limit is exceeded, a procedure does not apply, a solution needs the agreement
-        in the note, and a demand below its least value is raised to it, by the ratio: none is a
-        failure. Tables show the `verdict` instead.
+        demand. None of the last three is a failure if the limit is exceeded: a procedure does not
+        apply, a solution needs the agreement in the note, and a demand below its least value is
+        raised to it, by the ratio. Tables show the `verdict` instead.
     level : str
         Level of the seismic action, such as "MCE_R", "design" or "maximum"; empty if none enters.
 

@@ -18,7 +18,7 @@ OF_AXIAL_FORCES = ("N", "t_up", "g", "N_land")
 """Symbols of axial force, uplift duration, gap and force of landing in checks of time histories."""
 
 NOT_EVALUATED = "not evaluated"
-"""Stands in the title of a check that was not evaluated."""
+"""Part of the title of a check that was not evaluated."""
 
 
 def not_evaluated(checks: Iterable[Check], why: str, needs: Iterable[str] = ()) -> Checks:
@@ -34,7 +34,7 @@ def not_evaluated(checks: Iterable[Check], why: str, needs: Iterable[str] = ()) 
 
 def _without_demand(check: Check, why: str) -> Check:
     if math.isinf(check.limit):
-        return check  # nothing is asked
+        return check  # no requirement
     worst = math.inf if check.relation == "<=" else -math.inf
     return replace(
         check,

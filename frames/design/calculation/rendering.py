@@ -1,4 +1,4 @@
-"""Formulas and numbers as a reader sees them: text, and MathML for pages."""
+"""Formulas and numbers in a report: text, and MathML for pages."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ _WORDS: dict[Kind, str] = {
     "own": "no value of a code",
 }
 STAR = "*"
-"""Stands behind clauses whose standing is "from memory", and only behind those."""
+"""Mark behind clauses whose source is "from memory", and only behind those."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class Standing:
 
 
 FROM_MEMORY = Standing("memory")
-"""The weakest: of all that nobody said more of."""
+"""The weakest source: the default."""
 
 PROJECT = Standing("own")
 """Source of values without a code: mechanics, proposals of this package, limits of the project."""

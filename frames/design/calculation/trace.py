@@ -73,8 +73,8 @@ class Trace:
         source, note : str
             Source of the number, and a remark for the reader.
         shown : str
-            Unit to show it in: forces in kN and stresses in MPa unless it says otherwise, "mm"
-            for a length in mm, "%" for a ratio in per cent.
+            Unit shown: by default forces in kN and stresses in MPa; "mm" for a length in mm, "%"
+            for a ratio in per cent.
 
         Returns
         -------
@@ -84,7 +84,7 @@ class Trace:
         Raises
         ------
         CheckError
-            If the symbol is taken or no name, or the value is NaN.
+            If the symbol is in use or no name, or the value is NaN.
         """
         return _single(self._add(symbol, float(value), unit, source=source, note=note, shown=shown))
 
@@ -155,7 +155,7 @@ class Trace:
         note: str = "",
         shown: str = "",
     ) -> tuple[float, ...]:
-        """Evaluate a formula for each of several, as a call does for one, and return the values."""
+        """Evaluate a formula for each of several, as `__call__` for one, and return the values."""
         return _several(self._formed(symbol, formula, unit, source, note, shown))
 
     def of(self, *symbols: str) -> Trace:

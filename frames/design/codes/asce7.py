@@ -91,7 +91,7 @@ class ASCE7(LinearAnalysis):
     orthogonal : float
         Share of the other direction's overturning that acts with it.
     pressure_limit : float, optional
-        Pressure that the sliders stand [Pa] (17.2.4.6).
+        Pressure resistance of the sliders [Pa] (17.2.4.6).
 
     Notes
     -----

@@ -223,7 +223,8 @@ _SYMBOLS = {
 def factors_by_source(**given: Any) -> PropertyModificationFactors:
     """Return the product of factors by source: a code without a rule of its own.
 
-    Nothing is taken off for effects that are not at their worst at once, which is on the safe side.
+    There is no reduction for effects that are not at their worst at once, which is on the safe
+    side.
 
     Parameters
     ----------

@@ -95,7 +95,7 @@ class EN1998(LinearAnalysis):
     orthogonal : float
         Share of the other direction's overturning that acts with it (EN 1998-1 4.3.3.5).
     pressure_limit : float, optional
-        Pressure that the sliders stand [Pa].
+        Pressure resistance of the sliders [Pa].
 
     Examples
     --------

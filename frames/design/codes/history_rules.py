@@ -71,7 +71,7 @@ class ActionLevel:
 
 
 MOST_ECCENTRIC = 0.25
-"""Largest accidental eccentricity over the sides of the plan [-]; codes ask for 0.05."""
+"""Largest accidental eccentricity over the sides of the plan [-]; codes require 0.05."""
 
 _COUNT, _SHARE = number("-", "[1, 1000)"), number("-", "(0, inf)")
 
@@ -127,8 +127,8 @@ class HistoryRules:
         True if the equivalent-linear analysis gives least values of the histories' demands, as
         D_TM_dyn, V_b_dyn and V_s_dyn of its calculation.
     accidental_eccentricity : float
-        Share of the plan's sides by which the masses of floors are moved each way [-]; 0: not at
-        all.
+        Share of the plan's sides by which the masses of floors are moved in each direction [-]; 0:
+        not at all.
     levels : tuple of ActionLevel
         Levels of the seismic action of the histories, and the checked parts of each.
     statistic_clause, displacement_clause, drift_clause, force_clause, uplift_clause : str
@@ -224,7 +224,7 @@ class HistoryRules:
 
     @property
     def bearing_level(self) -> str:
-        """The level of the seismic action at which bearings are judged."""
+        """The level of the seismic action at which bearings are checked."""
         return next(level.name for level in self.levels if level.judges_bearings)
 
     def level(self, name: str = "") -> ActionLevel:
@@ -275,7 +275,7 @@ class LoadRule(NamedTuple):
     clause : str
         Clause of the code.
     mass : mapping of str to float
-        Share of each load case that is seismic mass [-], if a project does not say another.
+        Share of each load case that is seismic mass [-], unless a project gives another.
     combinations : callable
         Returns the vertical load combinations of the bearings without the horizontal earthquake.
         "average" among them is that of time histories. Its argument is the acceleration of the

@@ -80,12 +80,12 @@ class NCh2745(LinearAnalysis):
     orthogonal : float
         Share of the other direction's overturning that acts with it.
     pressure_limit : float, optional
-        Pressure that the sliders stand [Pa].
+        Pressure resistance of the sliders [Pa].
 
     Notes
     -----
     Combinations of vertical loads for `IsolationSystem` are of the kind 1.2 D + L and 0.8 D (6.2).
-    The base shear goes by the largest stiffness at the displacement, that of the upper bound.
+    The base shear uses the largest stiffness at the displacement, that of the upper bound.
 
     Examples
     --------

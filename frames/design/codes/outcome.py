@@ -86,7 +86,7 @@ class BoundResult:
 
     @property
     def damping_factor(self) -> float:
-        """Damping factor, as the code has it [-]."""
+        """Damping factor of the code [-]."""
         return self.trace.value(self.symbols.factor)
 
     @property

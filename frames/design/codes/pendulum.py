@@ -28,7 +28,7 @@ class FrictionPendulum:
     frictions : tuple of float
         Friction coefficient of each surface [-], at least 0 and below 1.
     capacity : float
-        Displacement at which a rim is met [m]; infinite without rims.
+        Displacement at rim contact [m]; infinite without rims.
 
     Raises
     ------

@@ -156,7 +156,7 @@ class DesignCode(HazardRules):
     provisions : tuple of Provision
         Requirements on a project, checked or not.
     analysis : callable
-        Returns the equivalent-linear analysis with all defaults; a class such as `ASCE7`.
+        Returns the equivalent-linear analysis with all defaults; for example a class like `ASCE7`.
     histories : HistoryRules
         Rules for time histories.
     spectrum : callable

@@ -134,7 +134,7 @@ class CheckBuilder:
         return replace(self, scope=scope)
 
     def resting_on(self, *names: str) -> CheckBuilder:
-        """Return one whose checks stand as the weakest of these values of the code."""
+        """Return a builder whose checks have the weakest source of these values of the code."""
         return replace(self, standing=standing_by(self.values, *names, analysis=self.analysis))
 
     def limit(self, *names: str) -> CheckBuilder:

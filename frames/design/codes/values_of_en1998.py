@@ -258,7 +258,7 @@ COMPANION = 0.3
 def vertical_level(spectrum: Spectrum) -> float:
     """Return the plateau of the vertical elastic spectrum, 3 a_vg, of all vertical periods [g].
 
-    Of a spectrum by points S_e(0) stands for a_g: on the safe side, it has the ground in it.
+    For a spectrum by points S_e(0) replaces a_g: on the safe side, because it includes the ground.
     """
     peak = spectrum.parameters.get("a_g") or float(spectrum.acceleration(spectrum.reach[0]))
     kind = int(dict(spectrum.site).get("kind", 1))

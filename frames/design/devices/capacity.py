@@ -39,7 +39,7 @@ def capacity_checks(
 ) -> Checks:
     """Check a displacement against the sum of the three parts that make it, and each part.
 
-    Both surfaces slide together, as the slider tilts, until a rim is met; the interface does the
+    Both surfaces slide together, as the slider tilts, until rim contact; the interface slips the
     rest.
 
     Parameters
@@ -138,7 +138,7 @@ def engagement_checks(
 
     Notes
     -----
-    A rim is met at ``U = L d / R``, plates parallel, no residual slip.
+    Rim contact is at ``U = L d / R``, plates parallel, no residual slip.
 
     Examples
     --------

@@ -46,7 +46,7 @@ def device_checks(
         Least and maximum axial force along the slider while it works, N_min and N_max [N], > 0. At
         a rim it exceeds the vertical load by ``1 / (cos(theta) - mu_h sin(theta))``.
     slip : float
-        Largest interface slip that is reckoned with [m].
+        Largest expected interface slip [m].
     slip_left : float
         Interface slip that an earlier event left, in the worse direction [m].
     bounds : PropertyBounds, optional

@@ -69,8 +69,8 @@ class DesignLimits:
     displacement_left : float, optional
         Bearing displacement that may stay after an event [m].
     rim_engagement : float, optional
-        Share of the displacement that bearings must allow from which on rims may be met, as agreed
-        with the authority or proven by tests [-], at most 1.
+        Agreed or tested share of the needed displacement capacity from which on rim contact is
+        allowed [-], at most 1.
     moat_gap : float, optional
         Clear distance from the structure above the bearings to the moat wall or a neighbour [m]. Of
         projects alone.

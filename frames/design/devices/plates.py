@@ -56,9 +56,9 @@ def made(
 ) -> Make:
     """Return a bearing as it is made.
 
-    Rims are as wide as `rim_width`, and as their strength asks for: that of the limits, else the
-    largest rim force of the runs [N]. Thicknesses are the bearing's, else a share of the diameter.
-    Surfaces without rims are as wide as the displacement asks for [m].
+    Rims have the width `rim_width`, and the strength of the limits, else for the largest rim force
+    of the runs [N]. Thicknesses are the bearing's, else a share of the diameter. Surfaces without
+    rims are as wide as the displacement needs [m].
     """
     has_rims = all(map(math.isfinite, bearing.rim_displacement))
     reach = _reach(bearing, displacement)

@@ -163,7 +163,7 @@ class ElasticSpectrum:
         Parameters
         ----------
         period : float
-            The longest period that is asked for [s].
+            The longest period of interest [s].
 
         Returns
         -------

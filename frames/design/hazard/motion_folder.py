@@ -236,7 +236,7 @@ def _whole(name: str, key: str, text: str) -> int:
 
 
 def _value(text: str) -> object:
-    """Return an entry as yes or no, as a number, or as the text it is."""
+    """Return an entry as yes or no, as a number, or as text."""
     if text.lower() in _YES_NO:
         return _YES_NO[text.lower()]
     try:

@@ -41,7 +41,7 @@ def to_fault(name: str, motion: GroundMotion, known: Mapping[str, object]) -> Gr
     if min(abs(apart - 90.0), abs(apart - 270.0)) > 1.0:
         msg = f"{name}: azimuth_x = {x:g} and azimuth_y = {y:g} must be 90 degrees apart"
         raise MotionError(msg)
-    # seen from above, y must lie to the left of x; azimuths grow to the right
+    # seen from above, y must be left of x; azimuths increase to the right
     left = motion if abs(apart - 270.0) <= 1.0 else motion.scaled((1.0, -1.0, 1.0))
     return left.rotated(math.radians(strike + 90.0 - x))
 
@@ -53,7 +53,7 @@ class MotionSet(MotionCollection):
     Parameters
     ----------
     motions : mapping of str to GroundMotion, or sequence of GroundMotion
-        The motions; those of a sequence go by their own names.
+        The motions; those of a sequence have their own names.
     facts : mapping of str to mapping, optional
         Facts of each: "magnitude", "distance" [km], "near_fault", "pulse" (True or False), "strike"
         of the fault, "azimuth_x" and "azimuth_y" of the components [degrees clockwise from north],
@@ -203,7 +203,7 @@ class MotionSet(MotionCollection):
         Warns
         -----
         MotionWarning
-            If motions of which nothing is said stay as recorded.
+            If motions without facts stay as recorded.
         """
         turned, facts = {}, {}
         self._require_strikes()
@@ -320,7 +320,7 @@ class MotionSet(MotionCollection):
             if not size:
                 made.append((first, first, self[first]))
                 continue
-            with warnings.catch_warnings(action="ignore", category=MotionWarning):  # said before
+            with warnings.catch_warnings(action="ignore", category=MotionWarning):  # warned before
                 both = self[first].followed_by(self[second].scaled(size), gap)
             made.append((first, f"{first}, then {size:g} {second}", both))
         return self._varied(made)
@@ -386,8 +386,8 @@ class MotionSet(MotionCollection):
         Warns
         -----
         MotionWarning
-            If a factor is out of the limits, there are fewer motions than asked for, or one
-            record is there twice.
+            If a factor is out of the limits, there are too few motions, or one record is there
+            twice.
         """
         for doubt in twins(self):
             warnings.warn(doubt, MotionWarning, stacklevel=2)

@@ -79,7 +79,7 @@ class Shape(NamedTuple):
 
 
 def _where(period: FloatArray, limit: float) -> FloatArray:
-    """Return the periods, those below `limit` raised to it: a branch that is not taken there."""
+    """Return the periods, those below `limit` raised to it: that branch is not used there."""
     return np.maximum(period, limit)
 
 

@@ -36,7 +36,7 @@ class Spectrum(ElasticSpectrum):
     Parameters
     ----------
     code : str
-        The code it is of, as plots and reports shall say it.
+        Code of the spectrum, as plots and reports show it.
     name : str
         Name for plots and messages.
     shape : str
@@ -79,8 +79,8 @@ class Spectrum(ElasticSpectrum):
         t_l : float
             Long-period transition period [s].
         s_1 : float, optional
-            Mapped acceleration at 1 s, without the site [g]; least shears of a fixed base ask for
-            it, and take s_m1 if it is left out.
+            Mapped acceleration at 1 s, without the site [g], for the least shears of a fixed base;
+            s_m1 if left out.
         name : str
             Name; made of the parameters if left out.
 
@@ -294,7 +294,7 @@ class Spectrum(ElasticSpectrum):
     ) -> Spectrum:
         """Return the elastic spectrum (R* = 1) of NCh433 with the decree 61 (Chile, buildings).
 
-        The code holds for 5 % damping; for other values the factors of NCh2745 are taken.
+        The code is for 5 % damping; other values use the factors of NCh2745.
 
         Parameters
         ----------
@@ -344,8 +344,8 @@ class Spectrum(ElasticSpectrum):
         accelerations : array_like, shape (n,)
             Pseudo-accelerations for 5 % damping [m/s2].
         code : str, optional
-            Whose damping factors are taken, "ASCE 7-22" for instance; left out, the
-            spectrum holds for 5 % alone.
+            Code of the damping factors, for instance "ASCE 7-22"; left out, the spectrum is for 5 %
+            alone.
         name : str
             Name.
 
@@ -368,7 +368,7 @@ class Spectrum(ElasticSpectrum):
 
 
 def _in_g(name: str, value: float) -> float:
-    """Return a spectral acceleration in g that a code can ask for."""
+    """Return a spectral acceleration in g; raise if it is impossible."""
     return require_between(
         name,
         require_positive(name, value, "g", remedy="give it in g", error=MotionError),

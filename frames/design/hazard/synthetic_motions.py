@@ -229,9 +229,9 @@ def synthetic_near_fault(
     Returns
     -------
     MotionSet
-        Motions "near-fault 1", ... whose ground is at rest at the end, without a displacement
-        left (fling is taken off). Facts: magnitude, distance, near_fault, pulse, and "pulse
-        period" [s], "pulse velocity" [m/s], "pulse gamma", "pulse phase" [rad].
+        Motions "near-fault 1",... with the ground at rest at the end, without residual displacement
+        (fling is removed). Facts: magnitude, distance, near_fault, pulse, and "pulse period" [s],
+        "pulse velocity" [m/s], "pulse gamma", "pulse phase" [rad].
 
     Raises
     ------

@@ -70,7 +70,7 @@ class BearingDemands:
     """Builder of checks of the bearings' demands in runs."""
 
     data: xr.Dataset  # the runs
-    suite: RunSet  # how they are taken together
+    suite: RunSet  # their statistics
     bearings: Mapping[str, LIRBearing]  # the bearings as they were in these runs
     limits: DesignLimits  # of the project
     bound: Bound  # properties of the bearings

@@ -161,7 +161,7 @@ class BoundChecks:
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
     def _moved_failed(self) -> list[Check]:
-        # Runs with the masses moved: none may fail, for each stands for all motions.
+        # Runs with the masses moved: none may fail, because each represents all motions.
         if self.case.moved is None:
             return []
         t = Trace()
@@ -179,7 +179,7 @@ class BoundChecks:
         return [judge(clause, title, "n_failed", "<=", "n_allowed", note=note)]
 
     def _engagement(self, moved: list[Check]) -> list[Check]:
-        # At the displacement that the runs ask bearings to allow, by the code's rule for rims.
+        # At the needed displacement capacity of the runs, by the code's rule for rims.
         code, least = self.case.rules.code, self.case.rules.engagement
         if code not in HISTORY_RULES or not moved or moved[0].void:
             return []  # the check of the displacement has the reason

@@ -107,7 +107,7 @@ def _note(quantity: Quantity, rules: HistoryRules) -> str:
 
 
 def said(suite: RunSet) -> str:
-    """Return in words how the runs of a bound are taken together."""
+    """Return the statistics of a bound's runs in words."""
     n, failed = len(suite.failed), sum(suite.failed)
     of_all = worded("{statistic} of {n} runs", statistic=suite.statistic, n=n)
     if suite.void:

@@ -45,13 +45,13 @@ WAYS: Mapping[str, tuple[float, float]] = {
     "+y": (0.0, 1.0),
     "-y": (0.0, -1.0),
 }
-"""Ways in which masses are moved, as shares along x and y of the accidental eccentricity."""
+"""Directions of moved masses, as shares along x and y of the accidental eccentricity."""
 
 _RAISED = sorted(
     (name for name, quantity in QUANTITIES.items() if quantity.raised),
     key=lambda name: (QUANTITIES[name].raised == "difference", QUANTITIES[name].kind == "final"),
 )
-"""Quantities that moved masses raise. Of rims none of which yields nothing is said."""
+"""Quantities that moved masses raise. Rims that do not yield have no entry."""
 
 
 class _Way(NamedTuple):
@@ -70,7 +70,7 @@ class _Way(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """Runs of a level and bound, some of them with the floors' masses moved, as a code counts."""
+    """Runs of a level and bound, some with the floors' masses moved, by the rules of a code."""
 
     runs: Runs  # those with moved masses are of motions among the others
     rules: HistoryRules  # the code's
@@ -95,7 +95,7 @@ class Case:
 
     @cached_property
     def ways(self) -> list[_Way]:
-        """The ways of the moved masses, and of each the runs that are compared."""
+        """The directions of the moved masses, with the compared runs of each."""
         if self.moved is None:
             return []
         found, count, names = [], self.data.sizes["run"], self.moved[MASS_SHIFT].to_numpy().tolist()
@@ -164,7 +164,7 @@ class Case:
 
     @property
     def motions(self) -> list[str]:
-        """The motions of all runs, those with moved masses last and with their way."""
+        """The motions of all runs, those with moved masses last and with their direction."""
         return [motion_of(self.every, k) for k in range(self.every.sizes["run"])]
 
     def keeps(self, name: str) -> bool:
@@ -280,7 +280,7 @@ def _is_of_runs(data: xr.Dataset, name: Hashable) -> bool:
 
 
 def named_by_way(moved: xr.Dataset) -> xr.Dataset:
-    """Return runs with moved masses whose motions name the way as well."""
+    """Return runs with moved masses, with the direction in the names of their motions."""
     named = [
         worded("{motion}, masses {way}", motion=motion, way=way)
         for motion, way in zip(

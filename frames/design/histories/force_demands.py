@@ -1,4 +1,4 @@
-"""Forces in members, storeys and under bearings for design: of suites, as a code counts them."""
+"""Design forces in members, storeys and under bearings: of suites, by the rules of a code."""
 
 from __future__ import annotations
 

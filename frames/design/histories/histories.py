@@ -119,8 +119,7 @@ def history_checks(
     code : str or HistoryRules
         The code, "ASCE 7-22", "EN 1998" or "NCh2745", or its rules with other factors.
     bounds : PropertyBounds, optional
-        Factors that the runs at a bound were made with: the stable limit of interface slip goes by
-        them.
+        Factors of the runs at a bound: the stable limit of interface slip depends on them.
     limits : DesignLimits, optional
         Limits of bearings and structure; the code's own limits are checked beside.
     equivalent : EquivalentLinear, optional

@@ -1,4 +1,4 @@
-"""Checks of a set of motions against the target spectrum, as a code asks of time histories."""
+"""Checks of a set of motions against the target spectrum, by the rules for time histories."""
 
 from __future__ import annotations
 
@@ -207,5 +207,5 @@ def _is_turned(name: str, motions: MotionSet) -> bool:
         strike, x, y = (angle_of(name, known, key) for key in ("strike", "azimuth_x", "azimuth_y"))
     except MotionError:  # an unknown orientation is not turned
         return False
-    off = (abs((azimuth - strike + 45.0) % 90.0 - 45.0) for azimuth in (x, y))  # either way round
+    off = (abs((azimuth - strike + 45.0) % 90.0 - 45.0) for azimuth in (x, y))  # in both senses
     return max(off) <= _TURNED

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from frames.frame import Frame
 
 _STILL = 1e-6
-"""Mean drift below which a storey does not move [-]: the ratio of its lines says nothing."""
+"""Mean drift below which a storey does not move [-]: the ratio of its lines has no meaning."""
 
 
 def torsion_checks(

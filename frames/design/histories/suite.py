@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 class TorsionFactor(NamedTuple):
     """Effect of the worst direction of moved masses on the largest of a quantity."""
 
-    way: str  # which way the masses are moved, "+x"
+    way: str  # direction of the moved masses, "+x"
     # the largest over bearings, storeys or levels with the masses in place, and moved
     centred: float
     moved: float
@@ -50,8 +50,8 @@ class RunSet:
     # mean of the runs' largest values, the largest of them, or that of one run
     statistic: Literal["mean", "largest", "single"]
     failed: tuple[bool, ...]  # runs whose values must not count
-    allowed: int = 0  # how many of them the mean of the others may stand for
-    median_factor: float = 1.2  # then on the median, of all runs, below which the mean must not lie
+    allowed: int = 0  # number that may fail while the mean of the others is valid
+    median_factor: float = 1.2  # on the median of all runs: the least value of the mean then
     reason: str = ""  # which runs failed, in words
     source: str = ""  # clause of the statistic
     # factors of accidental eccentricity on quantities, by their names
@@ -221,12 +221,12 @@ def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
 
 
 def suite_of(data: xr.Dataset, rules: HistoryRules) -> RunSet:
-    """Return how the runs of one bound are taken together."""
+    """Return the statistics of one bound's runs."""
     return suite_of_failures(failures_of(data, rules), rules)
 
 
 def suite_of_failures(failures: Sequence[Failure | None], rules: HistoryRules) -> RunSet:
-    """Return how runs are taken together, by the failure of each."""
+    """Return the statistics of runs by the failure of each."""
     return RunSet(
         statistic="mean" if len(failures) >= rules.mean_from else "largest",
         failed=tuple(one is not None for one in failures),

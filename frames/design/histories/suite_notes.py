@@ -104,9 +104,9 @@ def left_out_checks(data: xr.Dataset, bound: Bound, void: str = "") -> list[Chec
 def doubted(checks: list[Check], errors: Mapping[str, float], quantity: str) -> list[Check]:
     r"""Return checks with a note at those that pass by less than the possible error of their level.
 
-    Errors :math:`e` are over the right value, so that a demand :math:`x` may stand for
-    :math:`x / (1 - e)`, and from :math:`e = 1` on for any value. A demand that a least value
-    governs is taken in the same way, on the safe side.
+    Errors :math:`e` are over the right value, so that a demand :math:`x` may mean :math:`x / (1 -
+    e)`, and from :math:`e = 1` on any value. A demand that a least value governs is treated the
+    same, on the safe side.
     """
     found = []
     for check in checks:

@@ -138,7 +138,7 @@ def asked_by(
 
 
 def _by_bearing(run: RunToCheck, one: Candidate, aim: float) -> tuple[list[float], list[float]]:
-    # The largest axial force of each bearing, and the radius that its resultant asks of its slider.
+    # The largest axial force of each bearing, and the slider radius for its resultant.
     cases = levels_of(run.cases)[run.rules.bearing_level]
     count = len(run.frame.bearings)
     loads, sliders = np.zeros(count), np.zeros(count)

@@ -63,7 +63,7 @@ class Preliminary:
     spectrum: Spectrum  # the design spectrum
     superstructure: Superstructure | None  # structure above the bearings
     equivalent: EquivalentLinear  # equivalent-linear analysis at both bounds
-    motions: MotionSet  # scaled as the file asks
+    motions: MotionSet  # scaled by the file
     # the structure with its floors' masses moved, by the direction; none without accidental
     # eccentricity
     moved: Mapping[str, Frame] = field(default_factory=dict)
@@ -101,7 +101,7 @@ class RunToCheck(Preliminary):
         Equivalent-linear analysis at both bounds.
     runs : frames.batch.runs.Runs
         Time histories, a row each: ``run.runs.where(hazard_level="MCE_R", bound="lower").data`` is
-        a Dataset of some. The tag "mass_shift" is the way of those with moved masses.
+        a Dataset of some. The tag "mass_shift" is the direction of moved masses.
     cases : list of Case
         The same by level and bound as the code counts them, accidental eccentricity with them.
     demands : pandas.DataFrame
@@ -117,7 +117,7 @@ class RunToCheck(Preliminary):
     types : mapping of str to TypeOfBearing
         Types of bearings, with the demands of the time histories on each.
     moved, kinds : mapping of str to Frame, of str to str
-        The structure with its masses moved, by the way; the type of each of its bearings.
+        The structure with its masses moved, by the direction; the type of each of its bearings.
     combined : mapping of str to Frame
         The structure under each combination of loads, "1.44 D + L + 0.15 S".
     doubts, checks : tuple of str, Checks

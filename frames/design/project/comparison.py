@@ -50,7 +50,7 @@ class RunCounts(NamedTuple):
     """Numbers of runs of a device, by outcome."""
 
     runs: int  # all of them
-    met: int  # those that met a rim, and that stopped before their end
+    met: int  # runs with rim contact, and runs that stopped before their end
     stopped: int
     doubtful: int  # those with a warning of the check of modelling assumptions
 

@@ -53,7 +53,7 @@ _BY_KEYS = CoulombFriction, VelocityFriction
 
 
 class _NoKeyError(TypeError):
-    """A field that no key of a file can stand for."""
+    """A field without a possible key in a file."""
 
 
 class Table(BaseModel):
@@ -204,7 +204,7 @@ def _kind(annotation: Any, unit: str, laws: tuple[type[FrictionLaw], ...]) -> An
 
 
 def _tag(way: Any) -> str:
-    # Ends with a bracket: messages leave such parts of a place out.
+    # Ends with a bracket: messages leave these parts of a place out.
     if is_dataclass(way) and isinstance(way, type):
         return f"[{way.__name__}]"
     return _PAIR if get_origin(way) is tuple else _NUMBER

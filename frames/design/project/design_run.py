@@ -108,7 +108,7 @@ class ProjectRun(RunToCheck):
     structure: tuple[tuple[str, str], ...] = ()  # the structure in words
     # provisions of the code: checked, not checked and why, or the engineer's
     provisions: tuple[ProvisionState, ...] = ()
-    # tables that the file names, which are kept with the results, as they were read
+    # tables of the file, kept with the results as they were read
     tables: Mapping[str, bytes] = field(default_factory=dict)
 
     @property

@@ -97,7 +97,7 @@ class ProjectInputs:
 
     @cached_property
     def _loaded_and_types(self) -> tuple[Frame, dict[str, str]]:
-        # Made once: an imported model takes seconds.
+        # Made once: an imported model needs seconds.
         devices = self.devices()
 
         def made() -> tuple[Frame, dict[str, str]]:
@@ -123,7 +123,7 @@ class ProjectInputs:
         return IsolationSystem.from_frame(frame, combinations=chosen, weight=weight)
 
     def provisional_frame(self) -> Frame:
-        """Return the structure on bearings of any size, for its loads; they carry, no more."""
+        """Return the structure on bearings of any size, for its loads alone."""
         bearing = LIRBearing(
             radius=2.0,
             slider_height=0.4,
@@ -189,7 +189,7 @@ class ProjectInputs:
         return in_section("limits", made)
 
     def rules(self) -> HistoryRules:
-        """Return how time histories count: as the code has it, uplift as the file says."""
+        """Return the rules for time histories: those of the code, uplift from the file."""
         keys = {"uplift_allowed", "least_gap", "accidental_eccentricity"}
         given = self.file.analysis.model_dump(exclude_none=True, include=keys)
         if given.get("accidental_eccentricity") == "none":
@@ -335,7 +335,7 @@ def _record_sets(names: Sequence[str]) -> MotionSet:
 
 
 def varied(given: MotionSource, motions: MotionSet) -> MotionSet:
-    """Return motions turned, without their vertical component, repeated, as a section asks."""
+    """Return motions rotated, without their vertical component, or repeated, by a section."""
 
     def made() -> MotionSet:
         found = motions.turned(given.turned) if given.turned else motions

@@ -206,7 +206,7 @@ def governing_motion(case: Case) -> str:
 
 
 def said_of_runs(parts: ProjectInputs, motions: MotionSet) -> str:
-    """Return how many time histories a project asks for, in words."""
+    """Return the number of time histories of a project, in words."""
     levels, bounds = parts.rules().levels, parts.file.analysis.bounds
     count = len(levels) * len(bounds) * len(motions)
     named = ", ".join(

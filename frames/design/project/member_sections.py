@@ -87,7 +87,7 @@ T = TypeVar("T", bound=ColumnsTable | BeamsTable)
 class NamedSection(NamedTuple):
     """A section of a member with its name for people."""
 
-    section: Section  # the section; of columns its depth lies along x or y
+    section: Section  # the section; of columns its depth is along x or y
     # vector that fixes local axes of a column: None has its depth along global x
     up: tuple[float, float, float] | None
     said: str  # shape, material and stiffness in words

@@ -1,4 +1,4 @@
-"""Moat walls and dampers of a project's file, put into its structure as links."""
+"""Moat walls and dampers of a project's file, added to its structure as links."""
 
 from __future__ import annotations
 
@@ -173,12 +173,12 @@ class Walls(NamedTuple):
     """Moat walls that a structure has."""
 
     gap: float  # clear distance to them [m]
-    sides: tuple[str, ...]  # along which sides of the base they stand, "x+"
+    sides: tuple[str, ...]  # sides of the base with walls, "x+"
     links: tuple[str, ...]  # names of the links that they are
 
 
 def walls_of(frame: Frame) -> Walls | None:
-    """Return the moat walls that `with_devices` put into a structure; None without."""
+    """Return the moat walls that `with_devices` added to a structure; None without."""
     found = {
         name: link.law
         for name, link in frame.links.items()
@@ -271,8 +271,8 @@ def device_rows(
 def wall_checks(frame: Frame, cases: Sequence[Case], gap: float) -> list[Check]:
     """Make the checks of the clear distance by time histories.
 
-    The displacement that they ask for with the code's factor, and the largest of all single runs.
-    Notes say whether the runs have the wall, and in how many of them it is met.
+    The needed clearance with the code's factor, and the largest displacement of all single runs.
+    Notes give the walls in the runs, and the number of runs with contact.
     """
     return [check for case in cases for check in _of_histories(frame, case, gap)]
 

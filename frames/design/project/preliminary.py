@@ -134,7 +134,7 @@ def combined_frames(
 
 
 def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:
-    """Return a project's structure with its floors' masses moved each way."""
+    """Return a project's structure with its floors' masses moved in each direction."""
     share = parts.rules().accidental_eccentricity
     if not share:
         return {}
@@ -159,7 +159,7 @@ def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:
 def scaled_motions(
     parts: ProjectInputs, spectrum: Spectrum, equivalent: EquivalentLinear
 ) -> MotionSet:
-    """Return a project's motions scaled to the spectrum or by a number, as its file asks."""
+    """Return a project's motions scaled to the spectrum or by a number, by its file."""
     motions, scale = parts.motions(), parts.file.motions.scale
     if scale != "spectrum":
         scaled = type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)

@@ -180,7 +180,7 @@ def number_or_infinity(unit: str) -> Any:
 
 
 def quantity(unit: str, example: str = "") -> Any:
-    """Return the type of a number with an SI unit, "" of a pure number, for a field of a table."""
+    """Return the type of a number with an SI unit, "" for a pure number, for a field of a table."""
     said = example or EXAMPLES.get(unit.replace("^", ""), f"1 {unit}")
     return Annotated[float, *_kind(unit, said)]
 
@@ -210,7 +210,7 @@ def part_of_side(number: float) -> float:
     return number
 
 
-_LARGEST_ECCENTRICITY = 0.5  # there the mass lies at the edge
+_LARGEST_ECCENTRICITY = 0.5  # there the mass is at the edge
 
 Positive, NotNegative = AfterValidator(positive), AfterValidator(not_negative)
 

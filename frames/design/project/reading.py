@@ -75,7 +75,7 @@ def read_file(
     try:
         return kind.model_validate(data).read_from(file, content)
     except ValidationError as cause:
-        lines: dict[str, str] = {}  # of the ways that a key may be given, the first
+        lines: dict[str, str] = {}  # the first of a key's alternatives
         for error in _told(cause.errors()):
             lines.setdefault(".".join(_place(error)), _line(str(file), data, error, kind, hint))
         raise ProjectError("\n".join(lines.values())) from cause
@@ -229,10 +229,10 @@ def _lacking(data: dict[str, Any], place: Sequence[str], known: Sequence[str]) -
 
 
 def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Table]) -> list[str]:
-    # Keys of the section in which an unknown one stands.
+    # Keys of the section with an unknown one.
     model, annotation = whole, None
     for part in place[:-1]:
-        if str(part).endswith("]"):  # the way in which a value was given
+        if str(part).endswith("]"):  # the alternative in which a value was given
             model = _named(annotation, str(part).strip("[]")) or model
             continue
         field = model.model_fields.get(part)
@@ -246,7 +246,7 @@ def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Table]) -> li
 
 
 def _named(annotation: Any, name: str) -> Any:
-    # The table of a name among the ways that an annotation has.
+    # The table of a name among the alternatives of an annotation.
     if getattr(annotation, "__name__", "") == name and hasattr(annotation, "model_fields"):
         return annotation
     ways = (_named(part, name) for part in get_args(annotation))

@@ -165,7 +165,7 @@ def _of_devices(
 
 
 def _without_effect(file: ProjectFile, types: Mapping[str, str]) -> Iterator[str]:
-    # Keys that the code does not read, bearings that stand nowhere.
+    # Keys that the code does not read, unused bearings.
     above, code = file.superstructure, code_named(file.project.code)
     for key, instead in code.unread.items():
         given = above is not None and key in above.model_fields_set and getattr(above, key)

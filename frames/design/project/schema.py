@@ -284,7 +284,7 @@ class Target(table_of(DesignTarget)):  # type: ignore[misc]  # its keys are the 
 
 
 class ProjectTable(Table):
-    """``[project]``: its name and standard, Python files that extend it, who and when, language."""
+    """``[project]``: name and standard, Python files that extend it, people and date, language."""
 
     name: str = Field(min_length=1)
     code: str

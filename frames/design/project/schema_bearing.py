@@ -20,7 +20,7 @@ from frames.laws import Gap, ViscousDamper
 from lir_element import LIRBearing
 
 Side = Literal["x+", "x-", "y+", "y-"]
-"""A side of the base, by the way in which it looks."""
+"""A side of the base, by its outward direction."""
 
 SIDES: tuple[Side, ...] = get_args(Side)
 """All of them."""

@@ -21,7 +21,7 @@ Size = Annotated[Length, Positive]
 Count = Annotated[int, Field(ge=1)]
 
 SHAPES = ("section", "box", "rectangle", "circle", "i_shape", "properties")
-"""Ways of giving a cross-section, of which a table has one."""
+"""Alternatives for a cross-section; a table has one."""
 
 
 def one_or_more(kind: Any, name: str) -> Any:
@@ -90,7 +90,7 @@ class PropertiesTable(table_of(Section, *_CONSTANTS)):  # type: ignore[misc]  # 
 
 
 class SectionTable(Table):
-    """A cross-section in one of its ways, and its material."""
+    """A cross-section in one of its alternatives, and its material."""
 
     section: str | None = None
     box: tuple[Size, ...] | None = Field(default=None, min_length=2, max_length=3)

@@ -1,4 +1,4 @@
-"""The files that a project is made of, as they were when it was read."""
+"""The files of a project, as they were when it was read."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from frames.design.project.derived import WholeFile
 
 _LOADED: dict[Path, str] = {}
-"""SHA-256 of the files that were run, as it was then: each is run once in a process."""
+"""SHA-256 of the executed files at that time: each is executed once in a process."""
 
 ANYWHERE: ContextVar[bool] = ContextVar("ANYWHERE", default=False)
 """True if files outside of the project's folder may run."""

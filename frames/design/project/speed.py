@@ -31,7 +31,7 @@ class Way(NamedTuple):
 
     dt: float  # step [s]; NaN if the program controls its error
     level: str  # of the bearings
-    steps: int  # taken, refinements included
+    steps: int  # number, refinements included
     seconds: float  # in the loop, median of the repeats [s]
     share: float  # of that over the duration of the motion [-]
     # differences of the peaks from those of the finest run [-]; NaN if it stopped early
@@ -59,7 +59,7 @@ def ways_to_run(
 
 
 def recommended(ways: Sequence[Way], error: float) -> Way | None:
-    """Return the cheapest way whose differences are within an error."""
+    """Return the cheapest options whose differences are within an error."""
     good = [
         way
         for way in ways

@@ -123,7 +123,7 @@ def _named_sections(given: IrregularFrame, frame: Frame) -> Rows:
 
 
 def _areas(frame: Frame) -> Rows:
-    # Areas that loads lie on, floors of one area together.
+    # Areas with loads, floors of one area together.
     found = {level.name: 0.0 for level in frame.levels}
     places = {name: (node.x, node.y) for name, node in frame.nodes.items()}
     for load in frame.floor_loads.values():

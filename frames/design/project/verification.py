@@ -52,7 +52,7 @@ class Verified(NamedTuple):
     run: RunToCheck | None  # its runs, demands and checks; None if it could not be run
     reason: str = ""  # reason that it could not be run; empty if it was
     asked: Asked = Asked()  # demands of its sizing
-    agreed: bool = False  # whether rims that are met are meant by the project
+    agreed: bool = False  # true if the project intends rim contact
     lacks: tuple[str, ...] = ()  # failures of a larger size, as the checks need it
     rounds: int = 1  # of time histories
 
@@ -136,7 +136,7 @@ def on_bearings(parts: ProjectInputs, one: Candidate, names: Sequence[str]) -> P
 
 
 def sections_of(one: Candidate, names: Sequence[str]) -> str:
-    """Return a candidate as it stands in a project's file: a type for each size of slider.
+    """Return a candidate as text of a project's file: a type for each size of slider.
 
     `names` are those of the frame's bearings.
     """
@@ -152,7 +152,7 @@ def sections_of(one: Candidate, names: Sequence[str]) -> str:
 
 
 def section_of(bearing: LIRBearing) -> str:
-    """Return a proposed bearing as it stands in a project's file, rounded to millimetres."""
+    """Return a proposed bearing as text of a project's file, rounded to millimetres."""
     return (
         f'[bearing]\nradius = "{bearing.radii[0]:g} m"\n'
         f'slider_height = "{1e3 * bearing.slider_height:.0f} mm"\n'
@@ -166,7 +166,7 @@ def section_of(bearing: LIRBearing) -> str:
 def with_sections(text: str, sections: str) -> str:
     """Return the text of a project's file with other bearings; its other lines stay.
 
-    They take the place of ``[bearing]`` and ``[bearings.<type>]``, or stand at the end.
+    They replace ``[bearing]`` and ``[bearings.<type>]``, or are appended.
     """
     found: list[str] = []
     inside, place = False, None

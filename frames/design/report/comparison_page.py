@@ -327,7 +327,7 @@ def _panel(panel: Axes, table: pd.DataFrame, title: str) -> None:
 def comparison_pictures(
     table: pd.DataFrame, histories: Mapping[str, xr.Dataset], case: str, bearing: str
 ) -> dict[str, list[Picture]]:
-    """Return the figures of a comparison by the section that they stand in."""
+    """Return the figures of a comparison by their section."""
     several = table["level"].nunique() > 1
     motions = [
         picture(

@@ -36,7 +36,7 @@ class Line(NamedTuple):
     formula: str  # as MathML
     source: str  # clause, equation or table; remark for the reader
     note: str
-    # whether it has a value alone, no formula: on paper several such stand beside each other
+    # true for a value without formula: in print several of them share a line
     is_given: bool
 
 
@@ -178,7 +178,7 @@ class Cover(NamedTuple):
 
     @property
     def short(self) -> str:
-        """The digest as it stands in the foot of a page."""
+        """The digest in the foot of a page."""
         return self.digest[:_SHORT]
 
 

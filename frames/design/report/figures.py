@@ -255,7 +255,7 @@ def plan_figure(run: ProjectRun) -> Figure | None:
 
 
 def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
-    """Return the figures of a run, by the section that they stand in."""
+    """Return the figures of a run, by their section."""
     kinds = types_of(run)
     plans: dict[str, list[Plan]] = {
         "structure": [("The model", lambda: model_view(run.frame))],

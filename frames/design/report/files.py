@@ -251,7 +251,7 @@ def _check(row: dict[Any, Any]) -> Check:
 
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-"""Programs that print, as they are looked for on PATH."""
+"""Programs that print, as searched on PATH."""
 
 PASSES = 4
 """Largest number of prints of the report until its contents list the right pages."""

@@ -40,7 +40,7 @@ _IN_MATH = re.compile(r"(?<=<mn>)[^<]*|(?<=<mtext>)[^<]*")
 
 
 class Words:
-    """Says texts of a report in a language; one that is not there raises a ProjectError."""
+    """Texts of a report in a language; a missing one raises a ProjectError."""
 
     def __init__(self, language: str = "en", decimal: str = ".", names: Iterable[str] = ()) -> None:
         if language not in LANGUAGES:

@@ -311,7 +311,7 @@ _TITLES |= {"axial tension": "maximum axial tension"}  # as the table has it, no
 
 
 def raised_tables(table: pd.DataFrame) -> list[Table]:
-    """Return the way that raises each quantity most at each bound; none without moved runs."""
+    """Return the governing direction of moved masses of each quantity at each bound, if any."""
     if table.empty:
         return []
     size = table["factor"].fillna(0.0) + table["added"].fillna(0.0)
@@ -354,7 +354,7 @@ def eccentricity_said(run: ProjectRun) -> str:
 
 
 def motion_tables(table: pd.DataFrame) -> list[Table]:
-    """Return the columns that means are taken of, a row a run, in parts that fit a page."""
+    """Return the columns with a mean, a row a run, in parts that fit a page."""
     keys = ["motion", "bound"]
     for key, usual in (("level", None), ("masses moved", ""), ("scale", 1.0), ("failed", "no")):
         values = table[key]

@@ -73,7 +73,7 @@ def grouped(
 
 
 def _loads(columns: list[tuple[float, ...]]) -> Size:
-    # A bearing that a combination lifts is asked by its least load while it carries.
+    # If a combination lifts a bearing, its least positive load counts.
     pressed = [load for column in columns for load in column if load > 0.0]
     average = [column[0] for column in columns]
     return Size(
@@ -110,8 +110,8 @@ class Candidate:
     governing: Governing  # governing limit and its ratio: above 1 if a requirement is unmet
     # pressure of the target below which liners rub more than they are meant to [Pa]
     least_pressure: float
-    places: tuple[int, ...]  # which of the sizes stands at each place
-    prices: Prices | None = None  # by which `cost` is reckoned
+    places: tuple[int, ...]  # size of the bearing at each place
+    prices: Prices | None = None  # prices for `cost`
 
     @property
     def plan_diameter(self) -> float:
@@ -132,7 +132,7 @@ class Candidate:
     def bearing_volume(self) -> float:
         """Volume of all bearings, plates' area times slider's height: a measure of cost [m3].
 
-        It stands for steel to be forged, machined and moved; it is no price.
+        It measures the steel to be forged, machined and moved; it is no price.
         """
         t, found = self.trace, 0.0
         for bearing, group in zip(self.bearings, self.groups, strict=False):

@@ -43,7 +43,7 @@ class Asked(NamedTuple):
     """Demands of time histories, besides those of the formula."""
 
     displacement: float = 0.0  # largest displacement that bearings without rims must allow [m]
-    slip: float = 0.0  # slip that the interface must bear [m]
+    slip: float = 0.0  # needed slip of the interface [m]
     interface: float = 0.0  # least friction of the interface [-]
     # of each bearing the largest axial force [N], and the least radius of its slider [m]
     loads: tuple[float, ...] = ()
@@ -67,7 +67,7 @@ def fitted(
 ) -> Candidate:
     """Return a radius and a friction with fitted slider, rims and interface.
 
-    There are `count` sizes of slider at most, parted by the loads, those asked for among them.
+    There are `count` sizes of slider at most, divided by the loads, the required ones among them.
 
     The sliders begin with the radius for the pressures. They grow until they also allow the slip:
     by its overlap, and by the offset of the resultant, which the interface's friction causes.

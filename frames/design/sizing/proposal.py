@@ -70,7 +70,7 @@ class Design:
     impossible : tuple of Impossible
         Pairs of radius and friction of which no bearing can be made, and why.
     fit : callable
-        Fits a bearing to radius, friction and demands (`Asked`), as the candidates were fitted.
+        Fits a bearing to radius, friction and demands (`Asked`), in the same way as the candidates.
 
     Examples
     --------
@@ -114,8 +114,8 @@ class Design:
         Parameters
         ----------
         device : str
-            "LIR-DCFP"; "DCFP": the same plates and rims with the rigid slider; "DCFP
-            without rim contact": that with plates so large that its rims are not met.
+            "LIR-DCFP"; "DCFP": the same plates and rims with the rigid slider; "DCFP without rim
+            contact": that with plates so large that there is no rim contact.
 
         Returns
         -------
@@ -304,7 +304,7 @@ def design(
     Returns
     -------
     Design
-        The proposal, as a starting point: rims that are met need time histories.
+        The proposal, as a starting point: rim contact needs time histories.
 
     Raises
     ------

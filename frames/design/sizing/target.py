@@ -97,7 +97,7 @@ class DesignTarget:
         The same under the largest load of all combinations [Pa].
     least_pressure : float
         Pressure under the average combination, the mean of the bearings of a size weighted by their
-        loads, below which a proposal warns and takes other pairs first [Pa]; see `LEAST_PRESSURE`.
+        loads, below which a proposal warns and prefers other pairs [Pa]; see `LEAST_PRESSURE`.
     height_ratio : float
         Height of the whole slider over its radius [-].
     rim_width : float
@@ -107,7 +107,7 @@ class DesignTarget:
     slider_step, friction_step : float
         Steps to which radii of sliders [m] and the friction of the interface [-] are rounded up.
     max_displacement : float, optional
-        Largest that a bearing without rims must allow, as the gap around the building has it [m].
+        Largest displacement of a bearing without rims, for the gap around the building [m].
     max_base_shear : float, optional
         Largest base shear over weight [-].
     max_plan_diameter : float, optional

@@ -1,4 +1,4 @@
-"""A proposed bearing under one mass and the motions of a project: sized until it stands them."""
+"""A proposed bearing under one mass and the motions of a project: sized until it passes."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Excess(NamedTuple):
     """Mean spectrum of the motions over the target, at the effective period."""
 
     period: float  # effective period at the bound with the largest displacement [s]
-    ratio: float  # mean over target, and the least that the rule of scaling asks for [-]
+    ratio: float  # mean over target, and its least value by the rule of scaling [-]
     asked: float
 
     def __str__(self) -> str:
@@ -195,7 +195,7 @@ def tried_on_one_mass(found: Design, candidate: Candidate, how: OneMass) -> Tria
 def _runs(
     bearing: LIRBearing, mass: float, motions: MotionSet, how: OneMass, factors: tuple[float, ...]
 ) -> Runs:
-    # At each level, factor and bound; failures are counted by who called.
+    # Runs at each level, factor and bound; the caller counts failures.
     frame = lumped_mass(bearing, mass)
     rows = [
         (level, factor, bound, motion)
@@ -235,7 +235,7 @@ def _for_design(runs: Runs, name: str, rules: HistoryRules) -> float:
 
 
 def _torsion(candidate: Candidate) -> float:
-    # Total over central displacement, as the formula has them.
+    # Total over central displacement in the formula.
     each = candidate.analysis.bounds.values()
     return max(one.total_displacement / one.displacement for one in each)
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from frames.design.testing.loops import Cycle, PrototypeTest
 
 _SEVERAL = 2  # cycles, of which one can be less than the first
-_ALIKE = 1.1  # displacements of cycles that are judged together, largest over least
+_ALIKE = 1.1  # displacements of cycles that are checked together, largest over least
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +42,7 @@ class AcceptanceLimits:
         Drop of effective stiffness and damping over the cycles of a test of many cycles [-]; for
         the interface alone of its energy, over the cycles of any test.
     many_cycles : int
-        Cycles from which on a test is one of many, two at least; codes ask for ten or more.
+        Least number of cycles of a test of many cycles, two at least; codes require ten or more.
     stiffness : (float, float)
         Range of the post-elastic stiffness over N / L [-].
 
@@ -165,7 +165,7 @@ def _require_alike(name: str, tests: Sequence[PrototypeTest]) -> None:
 
 @dataclass(frozen=True)
 class _Set:
-    # Tests that are judged together.
+    # Tests that are checked together.
     name: str
     tests: list[PrototypeTest]
     bearing: LIRBearing | FrictionPendulum

@@ -70,7 +70,7 @@ def archive_campaign(
     path : str or path
         The archive, ``.zip``; an existing one is replaced.
     command : str
-        Command that gave the results, for the README.
+        Command that made the results, for the README.
 
     Returns
     -------

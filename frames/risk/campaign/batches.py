@@ -55,7 +55,7 @@ class Batch(NamedTuple):
     arrays: dict[str, Any]  # by name of variable, (runs, ...)
     histories: list[xr.Dataset]
     warnings: list[str]
-    reused: int = 0  # runs that were taken over, or are those of another row
+    reused: int = 0  # runs that were copied, or are those of another row
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +116,7 @@ class CampaignJob:
         found: dict[str, Frame] = {}
         first = ""
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # the batches tell them
+            warnings.simplefilter("ignore")  # the batches give them
             for name in self.models:
                 for k in range(self.plan.sets):
                     try:
@@ -216,8 +216,8 @@ class _Runs:
     def _distinct(
         self, frames: dict[str, Frame], rows: dict[str, list[int]]
     ) -> dict[str, list[int]]:
-        # Rows to run, by model. Parameters that change nothing of a model, such as the interface
-        # of a plain DCFP, give one run.
+        # Rows to run, by model. Parameters without effect on a model, such as the interface of a
+        # plain DCFP, give one run.
         digests = fingerprints(frames)
         for key, own in rows.items():
             for row in own:

@@ -43,14 +43,14 @@ if TYPE_CHECKING:
     from lir_element.device.features import Features
 
 FEWEST, MOST, PARTS = 16, 512, 8
-"""Runs of a batch if nothing is said: a part of all, within bounds; with histories the fewest."""
+"""Default number of runs of a batch: a part of all, within bounds; with histories the fewest."""
 
 BATCHES = 512
 """Largest number of batches, as each has files: campaigns with more runs have larger batches."""
 
 
 def usual_batch(runs: int) -> int:
-    """Return how many runs a batch of a campaign of `runs` has, if nothing is said."""
+    """Return the default number of runs of a batch in a campaign of `runs`."""
     return min(max(runs // PARTS, FEWEST), max(MOST, math.ceil(runs / BATCHES)))
 
 
@@ -207,8 +207,8 @@ class Campaign:
             began, if the change does not affect the numbers. The database keeps the run at which
             they changed. Everything else must be as planned, properties of the bearings included.
         reuse : str, path or sequence of them, optional
-            Folders of other campaigns whose runs are taken over in place of being computed again:
-            those of the same model, motion, scale and parameters, by the same sources and options.
+            Folders of other campaigns whose runs are copied instead of computed: those of the same
+            model, motion, scale and parameters, by the same sources and options.
 
         Returns
         -------
@@ -259,8 +259,8 @@ class Campaign:
         workers: int | None,
         known: Known,
     ) -> Generator[tuple[int, Batch]]:
-        # A cluster computes the batches of which not all is known. Here, runs of the batches before
-        # are known as well, but their histories are not taken over.
+        # A cluster computes the batches with missing runs. Here, runs of the batches before are
+        # reused as well, but without their histories.
         work, todo = self._work, counting.todo
         here = [
             batch

@@ -31,7 +31,7 @@ _ONE_AT_A_TIME = threading.Lock()  # a worker computes a batch with all of its t
 def over_cluster(
     client: Any, work: CampaignJob, layout: xr.Dataset, batches: Sequence[int], workers: int | None
 ) -> Iterator[tuple[int, Batch]]:
-    """Compute batches on a Dask cluster, in whichever order they are done."""
+    """Compute batches on a Dask cluster, in any order."""
     from distributed import as_completed
     from distributed.protocol.pickle import dumps
 

@@ -45,7 +45,7 @@ class Device:
     slider_radius : float, optional
         Radius of all sliders [m].
     wider : float
-        Radius that each slider has more than its load asks [m].
+        Radius of each slider beyond that for its load [m].
     least_slider_radius : float, optional
         Radius that no slider is below [m].
     plan : float, optional
@@ -133,7 +133,7 @@ class Device:
         return device._on(frame, own)
 
     def _on(self, frame: Frame, own: Mapping[str, LIRBearing]) -> Frame:
-        # On bearings with the sliders that their loads ask.
+        # Bearings with sliders for their loads.
         sliders = {name: self._slider(each) for name, each in own.items()}
         sized = self._sized(own, sliders)
         return frame.with_bearings(
@@ -141,7 +141,7 @@ class Device:
         )
 
     def _loaded(self, frame: Frame) -> dict[str, LIRBearing]:
-        # The bearings with the sliders that their loads ask.
+        # The bearings with sliders for their loads.
         own = {name: link.bearing for name, link in frame.bearings.items()}
         for name, each in own.items():
             if self.kind == "LIR-DCFP" and each.is_dcfp:
@@ -166,7 +166,7 @@ class Device:
     def _sized(
         self, own: Mapping[str, LIRBearing], sliders: Mapping[str, float]
     ) -> dict[str, dict[str, Any]]:
-        # Sliders, and the way to the rims: of the dishes that are there, or the same in all.
+        # Sliders, and the rim displacement: of the existing plates, or the same in all.
         if self.plan is None and self.capacity is None and self.moat is None:
             return {
                 name: {"slider_radius": sliders[name], **_dish(each, sliders[name])}

@@ -79,7 +79,7 @@ def with_ductility(
     frames: Callable[[], Mapping[str, Frame]],
     limits: Iterable[LimitState],
 ) -> dict[str, IntensityRuns]:
-    """Return runs by structure, with their ductility among the quantities if a limit asks it."""
+    """Return runs by structure, with their ductility among the quantities if a limit needs it."""
     if not any(limit.quantity == DUCTILITY for limit in limits):
         return dict(runs)
     found, models = {}, frames()

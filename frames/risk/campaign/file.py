@@ -178,7 +178,7 @@ def record_sets(given: CampaignFile | str | Path) -> dict[str, tuple[str, ...]]:
 
 
 def fragility_in(given: CampaignFile | str | Path) -> FragilityTable | None:
-    """Return the limit states and the measure of intensity that a campaign's file asks for."""
+    """Return the limit states and the intensity measure of a campaign's file."""
     return _read(given).fragility
 
 

@@ -29,8 +29,8 @@ class Measure:
     ----------
     function : callable
         ``function(data) -> float``: `data` is the run's Dataset, as a row of `time_histories` with
-        `record=Recording()`, until the end of its motion. A plain function or a lambda, whose
-        source can be read: it is part of the campaign's plan.
+        `record=Recording()`, until the end of its motion. A plain function or a lambda with
+        readable source: it is part of the campaign's plan.
     unit : str
         SI unit of the returned number; "1" for a pure number.
 

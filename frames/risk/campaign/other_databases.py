@@ -1,4 +1,4 @@
-"""Other results databases: runs are taken over from them; those of version 0.2 are converted."""
+"""Other results databases: their runs are copied; those of version 0.2 are converted."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The plan of a campaign: which run stands in which row and batch; rows as tables."""
+"""The plan of a campaign: row and batch of each run; rows as tables."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Plan:
         return tuple(np.unravel_index(np.arange(self.runs), sizes))
 
     def run(self, row: int) -> PlannedRun:
-        """Return the run that stands in a row."""
+        """Return the run of a row."""
         rest, scale = divmod(row, len(self.scales))
         rest, motion = divmod(rest, len(self.motions))
         model, k = divmod(rest, self.sets)

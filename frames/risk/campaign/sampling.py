@@ -22,12 +22,12 @@ class Distribution(Protocol):
     """Distribution of a parameter: a frozen distribution of `scipy.stats`."""
 
     def ppf(self, q: FloatArray, /) -> FloatArray:
-        """Return the values below which shares `q` lie."""
+        """Return the quantiles of the shares `q`."""
         ...
 
 
 Choice = Sequence[float] | Distribution
-"""Values that a parameter takes, or its distribution."""
+"""Values of a parameter, or its distribution."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,7 +205,7 @@ def sobol_sample(parameters: Mapping[str, Choice], size: int, *, seed: int = 0) 
 def saltelli_sample(
     distributions: Mapping[str, Distribution], samples: int, *, seed: int = 1
 ) -> ParameterSample:
-    """Return the sets of parameters of which `sobol_indices` are made, for a campaign.
+    """Return the sets of parameters for `sobol_indices`, for a campaign.
 
     Parameters
     ----------

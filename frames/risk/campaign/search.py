@@ -46,7 +46,7 @@ class MedianSearch:
 
     The search starts with Sobol' points, and fits a response surface to the logarithms of their
     medians (a plane and linear radial functions). `scipy.optimize.direct` finds its maximum; that
-    point is run, and the surface fitted anew, `trials` times.
+    point is run, and the surface fitted again, `trials` times.
 
     Parameters
     ----------

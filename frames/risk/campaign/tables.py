@@ -61,7 +61,7 @@ FILES = (
 
 
 class CampaignTables:
-    """Tables of the runs that a campaign has done, as its file asks; each is made at first use."""
+    """Tables of a campaign's complete runs, by its file; each is made on first use."""
 
     def __init__(self, campaign: Campaign, file: CampaignFile) -> None:
         self.campaign, self.file = campaign, file
@@ -92,7 +92,7 @@ class CampaignTables:
 
     @cached_property
     def runs(self) -> dict[str, IntensityRuns]:
-        """The same over the measure of the curves, with the ductility of hinges if it is asked."""
+        """The same over the measure of the curves, with the ductility of hinges if needed."""
         return self.by_factor if self.intensity is None else self._over(self.intensity)
 
     def _over(self, intensity: Intensity | None) -> dict[str, IntensityRuns]:
@@ -130,7 +130,7 @@ class CampaignTables:
 
     @cached_property
     def fragility(self) -> pd.DataFrame:
-        """A row a structure and limit state; "no curve" says why there is none."""
+        """A row a structure and limit state; "no curve" has the reason if there is none."""
         return self._by_set(lambda records: self._fitted[records][1])
 
     def _by_set(self, make: Callable[[str], pd.DataFrame]) -> pd.DataFrame:

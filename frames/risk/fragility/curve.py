@@ -372,7 +372,7 @@ def lognormal_fragility(
     Returns
     -------
     Fragility
-        The curve; its parameters are taken as known.
+        The curve; its parameters count as known.
 
     Raises
     ------

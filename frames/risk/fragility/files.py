@@ -167,7 +167,7 @@ _NUMBERS = {"median", "dispersion", "added", "rate", "above", "highest", "limit"
 
 
 def _number(value: Any) -> Any:
-    # A number that may be infinite; a part of that name is read as such.
+    # A number that may be infinite; other parts are read by name.
     return float(value) if isinstance(value, (str, float, int)) else _read(value)
 
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 RESAMPLES = 500
-"""Resamples of a confidence band, as a rule."""
+"""Default number of resamples of a confidence band."""
 
 LEAST_FITS = 0.5
 """Share of resamples that must allow a fit."""
@@ -214,7 +214,7 @@ def fit_capacities(
         True if the limit state was not reached up to `capacity`.
     method : {"moments", "likelihood"}, optional
         Mean and standard deviation of the logarithms (of n - 1), or maximum likelihood, which
-        takes censored ones; by default the one that the data need.
+        includes censored ones; by default the one that the data need.
     name, unit : str
         The limit state, and the unit of the intensity: "m/s2", or that of the measure.
     intensity : IntensityMeasure, optional

@@ -119,7 +119,7 @@ class Intensity:
         integral of abs(a); Arias intensity, pi / (2 g) times the integral of a^2; or the factor on
         the motion itself.
     period : float, optional
-        Natural period of Sa [s]; of the isolated structure, as a rule.
+        Natural period of Sa [s]; usually of the isolated structure.
     periods : sequence of float, optional
         Natural periods of Sa_avg [s], rising, two at least; ten from 0.2 to 3 times that of the
         structure, equally apart in their logarithms, are usual. Those of the hazard, one by one.

@@ -57,7 +57,7 @@ def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset
 
 
 def _of_sets(own: Runs, parameters: Sets) -> Runs:
-    # Rows of the sets of parameters that are asked for.
+    # Rows of the chosen sets of parameters.
     data = own.data
     if "parameter_set" not in data.coords:
         if parameters is None or parameters == ALL_SETS:

@@ -28,7 +28,7 @@ def values_of(
         one = measure.of(motion)
         return [factor**measure.power * one for factor in factors]
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MotionWarning)  # whoever runs it is warned
+        warnings.simplefilter("ignore", MotionWarning)  # the caller has the warning
         found = [measure.of(motion.scaled(factor)) for factor in factors]
     name = f"{measure.label} of {motion.name or 'motion'}"
     return [require_positive(name, each, measure.unit, error=FragilityError) for each in found]

@@ -332,7 +332,7 @@ def saltelli_sets(
         what = f"{bad[0]} = {distributions[bad[0]]!r}" if bad else "no parameter"
         msg = f"{what}: give distributions by name, such as scipy.stats.uniform(0.05, 0.02)"
         raise FragilityError(msg)
-    from scipy.stats import qmc  # takes longer than all of `import frames`
+    from scipy.stats import qmc  # slower than all of `import frames`
 
     d, rng = len(names), np.random.default_rng(seed)
     points = ((qmc.Sobol(2 * d, scramble=False).random(samples) + rng.random(2 * d)) % 1.0).T

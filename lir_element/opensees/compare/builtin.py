@@ -93,10 +93,10 @@ def builtin_commands(
 
     - ``"singleFPBearing"``: ``W (m + s) / (1 - s (m + s))``. One sphere of radius L, friction
       `Coulomb` or `VelDependent`. The moment N U acts on node i alone, and of all tilts only that
-      of node i's plate enters; the shear acts at half height. ``-orient`` stands last, because
-      after one vector it swallows the next word.
+      of node i's plate enters; the shear acts at half height. ``-orient`` is last, because after
+      one vector it consumes the next word.
     - ``"FPBearingPTV"``: ``W (m + s / sqrt(1 - s^2))``, otherwise the same; pressure and
-      temperature switched off. Its law for speed has ``f_min = f_max / 2`` built in, and takes the
+      temperature switched off. Its law for speed has ``f_min = f_max / 2`` built in, and uses the
       speed of the first iteration of a step.
     - ``"TripleFrictionPendulum"``: ``W (m + s)``. Three pendulums in series, here of one friction,
       whose lengths add up to L, so that all slide at once and the inner slider has no effect: in
@@ -200,7 +200,8 @@ def builtin_element(
 
     Notes
     -----
-    The model is of three dimensions, in m, N and s. `bearing_element` takes planes and other units.
+    The model is of three dimensions, in m, N and s. `bearing_element` supports plane models and
+    other units.
 
     Examples
     --------
@@ -211,7 +212,7 @@ def builtin_element(
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
             msg = f"{name} = {value!r} must be an integer tag"
             raise TypeError(msg)
-    tag, i, j = int(tag), int(i), int(j)  # OpenSees takes no integers of numpy
+    tag, i, j = int(tag), int(i), int(j)  # OpenSees refuses integers of numpy
     apart = _check_nodes(ops, tag, i, j, bearing)
     commands = builtin_commands(
         kind, tag, i, j, bearing, axial_load, first_tag=first_tag, lift=lift, apart=apart

@@ -122,7 +122,7 @@ def single(
         _ITERATIONS,
         _FORCE_TOLERANCE * load,
         "-orient",
-        *orientation,  # last, for it swallows the word after a single vector
+        *orientation,  # last, because it consumes the word after a single vector
     )
 
 

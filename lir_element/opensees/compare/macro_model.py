@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 Restoring = Literal["series", "across"]
 
-_FIRST = 1_000_000  # tags of materials cannot be asked for: begin far above those of a user
+_FIRST = 1_000_000  # OpenSees does not list tags of materials: begin far above usual ones
 _FEWEST = 4
 _MASS = 0.01  # of node m, over that of the axial load
 _UP = (0.0, 0.0, 1.0, 1.0, 0.0, 0.0)  # local x upwards, local y along global x
@@ -109,11 +109,11 @@ def macro_model(
     load : float
         Axial load at rest [N]: stiffnesses before slip are those under it.
     directions : int
-        Number of directions in which gaps stand: 4, 8, 12 and so on. The rim is a polygon of so
-        many sides about the circle; its corners are at ``1 / cos(pi / directions)`` of the radius.
+        Number of gap directions: 4, 8, 12 and so on. The rim is a polygon of so many sides about
+        the circle; its corners are at ``1 / cos(pi / directions)`` of the radius.
     restoring : {"series", "across"}
-        "series": a friction pendulum restores node m, before the interface. "across": a flat
-        slider stands in its place, and springs of stiffness ``load / L`` join node i to node j.
+        "series": a friction pendulum restores node m, before the interface. "across": a flat slider
+        replaces it, and springs of stiffness ``load / L`` join node i to node j.
     rise : bool
         True if the friction pendulum lifts node m as it moves sideways (``-inclVertdisp``). Its
         tangent has no such term: Newton's method then needs many iterations, and often fails.
@@ -139,10 +139,10 @@ def macro_model(
     -----
     Requirements of the arrangement:
 
-    - A flat slider passes the whole lateral force, while in the bearing the interface leans with
-      the slider and passes the friction's share only. With ``mu_h`` the slider would slip at
-      ``U = L (mu_h - m)``, m the friction over weight, before any rim is met. So it gets the
-      friction that the limit of the bearing's force asks for, ``tan(theta + atan mu_h)``.
+    - A flat slider transfers the whole lateral force, while in the bearing the interface tilts with
+      the slider and transfers the friction's share only. With ``mu_h`` the slider would slip at ``U
+      = L (mu_h - m)``, m the friction over weight, before rim contact. So it gets the friction of
+      the bearing's force limit, ``tan(theta + atan mu_h)``.
     - Both rims act on one displacement: a rim of stiffness k at ``d`` on radius R is a gap at
       ``d L / R`` of stiffness ``k (R / L)**2``. Gaps are elastic; dampers of rims are left out.
     - The rate of velocity-dependent friction belongs to the displacement of the whole bearing.
@@ -312,7 +312,7 @@ class _Builder:
         return tag
 
     def rims(self, i: int, j: int, directions: int) -> tuple[int, ...]:
-        """Make the gaps against node j's way from node i."""
+        """Make the gaps against node j's motion relative to node i."""
         bearing, length = self.bearing, self.bearing.effective_radius
         stiffness = bearing.resolved()["rim_stiffness"]
         gaps: dict[float, float] = {}
@@ -376,7 +376,7 @@ def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
 
 
 def _check_nodes(ops: Any, node_i: int, node_j: int) -> None:
-    """Refuse nodes that are not there, have no six degrees of freedom, or stand askew."""
+    """Refuse nodes that do not exist, lack six degrees of freedom, or are not aligned."""
     there = set(ops.getNodeTags())
     for name, node in (("node_i", node_i), ("node_j", node_j)):
         if node not in there:

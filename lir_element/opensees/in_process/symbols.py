@@ -61,7 +61,7 @@ CALLED = {
 
 
 class NotPossibleError(RuntimeError):
-    """The in-process coupling is not possible here; the message says why."""
+    """Raised if the in-process coupling is not possible here; the message has the reason."""
 
 
 @functools.cache

@@ -1,9 +1,9 @@
 """Our functions in the place of a host element's virtual ones.
 
-The host is a `genericClient`, an element of OpenSees that stands between any nodes. Its virtual
-tables (it has two base classes) are copied, entries are exchanged for our callbacks, and the
-address of a block is put in front of each copy. No place in a table is assumed: each entry is found
-by the address of the function that it holds.
+The host is a `genericClient`, an element of OpenSees between any nodes. Its virtual tables (it has
+two base classes) are copied, entries are exchanged for our callbacks, and the address of a block is
+put in front of each copy. No place in a table is assumed: each entry is found by the address of the
+function that it holds.
 
 Lifetime: OpenSees owns the element; its destructor is among the callbacks and marks the block, so
 that memory is given up only after the element is gone (`Graft.alive`).
@@ -42,7 +42,7 @@ _STREAM_WORDS = 48
 _SECOND = 16
 """Offset of the second base class in an element, in bytes."""
 _OBJECT_BYTES = 256
-"""More than a Vector or a Matrix of OpenSees takes."""
+"""More than the size of a Vector or a Matrix of OpenSees."""
 _TYPE = np.frombuffer(b"LIRBearing\0", dtype=np.uint8)
 
 

@@ -43,7 +43,7 @@ class Guard:
         self._reader, self._writer = os.pipe()
         self._block = np.zeros(1, dtype=GUARD)
         self._block["channels"][0, :, 0] = -1
-        self._block["answer"].view(np.int64)[:] = -1  # not a number, from whichever byte on
+        self._block["answer"].view(np.int64)[:] = -1  # not a number, from any byte on
         self._block["hinted"] = HINTED.ctypes.data
         self._block["pipe"] = -1 if pipe is None else pipe.fileno()
         self._block["stop"] = self._reader
@@ -54,7 +54,7 @@ class Guard:
             socket, "MSG_NOSIGNAL", 0
         )
         self._thread: threading.Thread | None = None
-        if sys.platform == "win32":  # it has no such functions: nobody answers for a killed server
+        if sys.platform == "win32":  # it has no such functions: a killed server is not replaced
             return
         system = ctypes.CDLL(None)
         for name in ("poll", "recv", "send", "write"):

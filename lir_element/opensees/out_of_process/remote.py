@@ -40,7 +40,7 @@ class ServerError(RuntimeError):
 
 
 class RouteWarning(UserWarning):
-    """The in-process coupling is not possible; the portable one is taken, or cannot serve.
+    """Warning: the in-process coupling is not possible; the portable one is used, or fails, too.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def _without_classes(bearing: LIRBearing) -> LIRBearing:
     if laws == bearing.frictions:
         return bearing
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # said when the bearing was made
+        warnings.simplefilter("ignore")  # a warning came when the bearing was made
         return replace(bearing, friction=laws)
 
 

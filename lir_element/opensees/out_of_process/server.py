@@ -2,8 +2,8 @@
 
     python -m lir_element.opensees.out_of_process.server HANDLE PARENT
 
-is started by `remote.Server`. It talks to the model's process through a private pipe (the handle),
-which hands it the connections of the host elements; it never listens anywhere. It ends with the
+is started by `remote.Server`. It communicates with the model's process through a private pipe (the
+handle), which passes it the connections of the host elements; it opens no port. It ends with the
 pipe, or with its parent.
 """
 
@@ -102,7 +102,7 @@ class Channel:
         clock = float(self._inbox[self._time])
         if not clock and not self._inbox[1 : self._time].any():
             hosted.restart()  # `reset` has no message: no motion at all, at time 0
-        # no message says that the model's clock was set back: to zero, as `loadConst` does it
+        # no message reports that the model's clock was set back: to zero, as by `loadConst`
         before = hosted.committed_time if clock >= hosted.committed_time else 0.0
         self._status = hosted.trial(*self._motion, clock - before, clock)
         text = hosted.told()
