@@ -686,9 +686,9 @@ print(json.dumps([len(table), table["radius"].tolist(), peak.tolist()]))
     ):
         assert words in told
     assert "Redistribution and use" in (tmp_path / "read/LICENSE").read_text()
-    shutil.copytree(store, tmp_path / "study/rims/all")
-    whole.main(["rims", "after", "--store", str(tmp_path / "study"), "--archive", str(tmp_path)])
-    with zipfile.ZipFile(tmp_path / "study_rims.zip") as packed:
+    shutil.copytree(store, tmp_path / "study/loss/all")
+    whole.main(["loss", "after", "--store", str(tmp_path / "study"), "--archive", str(tmp_path)])
+    with zipfile.ZipFile(tmp_path / "study_loss.zip") as packed:
         assert {"README.md", "all/runs.csv", "all/results.zarr/.zmetadata"} <= {*packed.namelist()}
     assert not (tmp_path / "study_after.zip").exists()
     next((store / "runs").glob("*.npz")).unlink()
