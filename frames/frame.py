@@ -37,8 +37,8 @@ class NonlinearBuilder(FrameBuilder):
         name : str
             New name.
         i, j : str
-            Its nodes. It is at node j; if the nodes are apart, a rigid lever joins it to node i, so
-            that rigid motions of both nodes are free of force.
+            Nodes of the link. It is at node j; if the nodes are apart, a rigid lever joins it to
+            node i, so that rigid motions of both nodes are free of force.
         law : Bilinear, BoucWen, Tie, ViscousDamper, Gap or HertzGap
             Law of its force. The first two are part of the structure, carry permanent loads and
             must be elastic under them; the others are added afterwards.
@@ -283,7 +283,7 @@ class Frame(NonlinearBuilder):
             cases; hinges have the name of their member. A member's hinges and own loads are removed
             with it; a floor load on it must be removed as well.
         name : str
-            Its name.
+            Name of the part.
 
         Raises
         ------

@@ -1,11 +1,11 @@
 """A reduced basis: the bearings' degrees of freedom kept, the linear rest as few Ritz vectors.
 
 Instead of all fixed-base modes of `build_basis` it uses load-dependent vectors (Wilson, Yuan and
-Dickens 1982): the static displacements under the inertia of rigid motions, and under that of each
-bearing's axial motion (without these the axial forces are off by a fifth), then those under the
-inertia of the vectors before, and so on. So they come in the order of their importance; the rest
-follows permanent loads and nonlinear parts statically. The structure's own matrices stay sparse, so
-that a large one is set up in seconds.
+Dickens 1982). The first are the static displacements under the inertia of rigid motions, and under
+that of each bearing's axial motion (without these the axial forces are off by a fifth). The next
+are those under the inertia of the vectors before, and so on. So they come in the order of their
+importance; the rest follows permanent loads and nonlinear parts statically. The structure's own
+matrices stay sparse, so that a large one is set up in seconds.
 """
 
 from __future__ import annotations

@@ -75,8 +75,8 @@ def propose(
 
     All candidates and their unmet requirements are in candidates.csv and candidates.png. The best
     are sized on one mass under the project's motions (one_mass.csv), then on the building until its
-    checks pass (front.csv, front.png), with --verify also by all analyses of `lir run`
-    (verified.csv).
+    checks pass (front.csv, front.png). With --verify they are also sized by all analyses of `lir
+    run` (verified.csv).
     """
     from frames.design.project.verification import sections_of
     from frames.results.storage import make_folder

@@ -86,17 +86,17 @@ def shear_building(
         the storey's, or a function that makes a law of a stiffness. They are the links
         "storey-1-x", "storey-1-y", ...
     overturning : bool
-        With a plan, True if base and floors tilt together, so that storey shears times heights,
-        eccentric masses and the moments at the ends of the bearings change the axial forces of the
-        bearings. False holds the base level. Equal bearings then carry equal loads under gravity,
-        their axial forces change by the differences of their rise alone, and checks that need axial
-        forces are not evaluated; for comparisons with models without overturning.
+        With a plan, True if base and floors tilt together: storey shears times heights, eccentric
+        masses and the end moments of the bearings then change their axial forces. False holds the
+        base level. Equal bearings then carry equal loads under gravity, their axial forces change
+        by the differences of their rise alone, and checks that need axial forces are not evaluated;
+        for comparisons with models without overturning.
     base_stiffness : float or tuple of two floats, optional
         Bending stiffness E I of the beams on one grid line along x and y, those of all levels
-        together [N m2], > 0. They resist the rise of one bearing above the plane of the others,
-        besides the columns of the first storey, which hold the beams' ends as columns of its
-        stiffness that are fixed in the floors do. Default: a span, held at both ends, vibrates with
-        a period of 0.05 s under its share of all masses.
+        together [N m2], > 0. The beams resist the rise of one bearing above the plane of the
+        others. The columns of the first storey resist it, too: they hold the beams' ends as columns
+        of its stiffness that are fixed in the floors. Default: a span, held at both ends, vibrates
+        with a period of 0.05 s under its share of all masses.
     damping : RayleighDamping, ModalDamping or None
         Damping of the structure; default 2 per cent in every mode.
     gravity : float

@@ -40,8 +40,8 @@ def default_bending(plan: GridPlan, mass: float) -> tuple[float, float]:
     """Return the default bending stiffness of a stick's base beams along x and y.
 
     Beams of all levels bend equally if columns hardly shorten, so that one beam on each grid line
-    represents those of all levels. Each of its spans, held at both ends, vibrates with a period of
-    0.05 s under its share of the mass of all levels, if the beams along one axis carry all of it.
+    represents those of all levels. The beams along one axis carry all of the mass of all levels.
+    Each span, held at both ends, vibrates with a period of 0.05 s under its share of it.
     """
     square = (2.0 * math.pi / (_CLAMPED * VERTICAL_PERIOD)) ** 2
     lines = (plan.bays[1] + 1, plan.bays[0] + 1)
@@ -63,7 +63,7 @@ def add_tilting_base(
 ) -> None:
     """Add a base that bends between its bearings, with floors that tilt with it, to a stick.
 
-    The foot of the stick follows the plane that fits the nodes over the bearings best, which
+    The foot of the stick follows the plane that fits the nodes over the bearings best. This
     distributes its force and moments to them as a rigid base does, M x_i / sum(x^2). The beams on
     the grid lines resist deviations from the plane; the columns of the first storey hold their ends
     against rotation. Floors tilt with the foot: the stick does not bend, and shears times heights

@@ -126,7 +126,7 @@ class FrameBuilder(FrameLoader):
         name : str
             New name.
         i, j : str
-            Its nodes, coincident or apart.
+            Nodes of the spring, coincident or apart.
         stiffness : sequence of 6 floats
             Stiffness along x, y, z [N/m] and about x, y, z [N m/rad], each >= 0, not all 0.
 
@@ -169,7 +169,7 @@ class FrameBuilder(FrameLoader):
         name : str
             New name.
         nodes : sequence of str, (n,)
-            Its nodes.
+            Nodes of the superelement.
         stiffness, mass : array_like or sparse, (6 n, 6 n)
             Symmetric matrices [N/m, N, N m] and [kg, kg m, kg m2]; the geometric stiffness
             included.

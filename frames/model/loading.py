@@ -214,8 +214,8 @@ class FrameLoader(FrameData):
         name : str
             New name of the panel's load.
         nodes : sequence of str, (n,)
-            Its corners one after the other, three or more at one elevation, a convex outline. Along
-            each edge that carries runs a member, or a chain of them, from corner to corner.
+            Corners in order, three or more at one elevation, a convex outline. Along each edge that
+            carries runs a member, or a chain of them, from corner to corner.
         q : float
             Load per unit area, downwards [N/m2], > 0.
         span : {None, "x", "y"} or sequence of 2 floats

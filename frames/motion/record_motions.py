@@ -62,9 +62,9 @@ class RecordedMotion(MotionData):
         Warns
         -----
         MotionWarning
-            If the ground still moves at the end of a component, its time step gives it
-            displacements that no ground has, it was cut in its strong phase, it is stronger than
-            all recorded motions, or x and y are one history.
+            If the ground still moves at the end of a component, or its time step gives it
+            displacements that no ground has. If it was cut in its strong phase or is stronger than
+            all recorded motions, or if x and y are one history.
         """
         traces, label = at2_traces(x, y, z)
         return cls.from_traces(traces, label if name is None else name, scale)

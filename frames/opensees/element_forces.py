@@ -110,7 +110,7 @@ class ElementLoad(NamedTuple):
     """A load of an element in its local axes."""
 
     force: tuple[float, float, float]
-    """Per length, or at a point, in units of the model."""
+    """Force per length, or at a point, in units of the model."""
     at: float | None
     """Place of a point load over the length of the element [-]; None of a uniform load."""
 

@@ -74,7 +74,7 @@ class Law(NamedTuple):
     kind: str
     """Type in OpenSees."""
     stiffness: float
-    """At rest: the larger one of pull and push."""
+    """Stiffness at rest: the larger one of pull and push."""
     is_linear: bool
     """True if the force is proportional to deformation (and speed)."""
     one_sided: str

@@ -136,7 +136,7 @@ def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> st
     Returns
     -------
     str
-        Its name, in the dimension "bearing".
+        Name of the bearing, in the dimension "bearing".
 
     Raises
     ------

@@ -70,11 +70,11 @@ def model_view(
     model : Frame
         The model.
     data : xarray.Dataset, optional
-        Its time history; without one the model is drawn undeformed.
+        Time history; without one the model is drawn undeformed.
     time : float, optional
         Instant [s]; that of the largest displacement of a bearing if None.
     factor : float, optional
-        By how much displacements are enlarged; so that the largest one shows if None.
+        Factor on displacements; None chooses one that shows the largest.
 
     Returns
     -------
@@ -126,9 +126,9 @@ def model_film(
     model : Frame
         The model.
     data : xarray.Dataset
-        Its time history.
+        Time history of the model.
     factor : float, optional
-        By how much displacements are enlarged; so that the largest one shows if None.
+        Factor on displacements; None chooses one that shows the largest.
     start, end : float, optional
         Window of time [s].
     speed : float

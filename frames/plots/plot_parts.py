@@ -54,7 +54,7 @@ def hinge_map(
     model : Frame
         The model.
     data : xarray.Dataset
-        Its time history.
+        Time history of the model.
     time : float, optional
         Instant [s]; the largest rotations of the run, for any recording, if None.
     limits : sequence of 3 floats, optional

@@ -31,8 +31,9 @@ _NAMES = {
 class Recording:
     """Content of a time history's record; its parts combine.
 
-    For any omission the run keeps the peaks of all its base steps (for `peaks`, the assumption
-    check, the energy balance), and needs no more memory than the record and a buffer of some 64 MB.
+    For any omission the run keeps the peaks of all its base steps: `peaks`, the assumption check
+    and the energy balance need them. It needs no more memory than the record and a buffer of some
+    64 MB.
 
     Parameters
     ----------

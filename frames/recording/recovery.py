@@ -156,7 +156,7 @@ def storey_forces(model: FrameData, data: xr.Dataset) -> xr.DataArray:
     -------
     xarray.DataArray
         (time, storey, component) [N, N m]: forces of the part above a cut on the part below,
-        positive with positive displacement as `base_shear` is, in components Vx, Vy (storey
+        positive with positive displacement as `base_shear` is. The components are Vx, Vy (storey
         shears), Fz (negative under weight), Mx, My (overturning) and Mz (torsion), moments about
         the middle of the nodes of the level below. A storey has the name of the level on top of it
         and is cut at its foot. The first one is under the lowest level and contains the bearings;

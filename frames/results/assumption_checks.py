@@ -78,10 +78,9 @@ def audit(data: xr.Dataset) -> Findings:
     -------
     tuple of Finding
         One for each feature, in the order of `Features.names()`, one on full contact, one on the
-        stable limit of interface slip, if it applies one on rim contact with a slip and one on the
-        yield displacement; for a structure with hinges one on their rotation; one on the sum of all
-        forces, and if it applies one on nodes accelerated by more than 50 g and one on the error of
-        a given step.
+        stable limit of interface slip, and one on the sum of all forces. If they apply: one on rim
+        contact with a slip, one on the yield displacement, one on the rotation of hinges, one on
+        nodes accelerated by more than 50 g, and one on the error of a given step.
 
     Raises
     ------

@@ -32,9 +32,9 @@ def envelope(values: xr.DataArray | xr.Dataset, variable: str | None = None) -> 
     Parameters
     ----------
     values : xarray.DataArray or xarray.Dataset
-        With the dimension `time`, as from `member_forces`: of its steps. Or the Dataset of a time
-        history, with the name of a variable: of all steps of the run if the recording kept extremes
-        (`Recording`), else of its steps.
+        History with the dimension `time`, as from `member_forces`: extremes of its steps. Or the
+        Dataset of a time history, with the name of a variable: extremes of all steps of the run if
+        the recording kept them (`Recording`), else of its steps.
     variable : str, optional
         Name of the variable of a Dataset.
 

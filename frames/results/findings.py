@@ -37,7 +37,7 @@ class Finding:
     number : float
         Number behind the finding; the sentence defines it.
     sentence : str
-        For people.
+        Statement of the finding for readers.
     doubtful : bool
         True if an effect in play needs attention.
     bearings : tuple of str

@@ -25,7 +25,7 @@ def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.
     periods : array_like, shape (m,)
         Natural periods of the equipment [s], >= 0.
     damping : float
-        Its part of the critical damping [-], in [0, 1).
+        Damping ratio of the equipment [-], in [0, 1).
 
     Returns
     -------

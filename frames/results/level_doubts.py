@@ -46,7 +46,7 @@ class Class(NamedTuple):
 
     name: str
     errors: tuple[float, ...]
-    """Over the value, as `DOUBTED`; inf: may be anything."""
+    """Error over the value, as `DOUBTED`; inf: no bound."""
 
 
 SHORT_TRAVEL, LONG_TRAVEL = 1.5, 3.0

@@ -52,21 +52,23 @@ class Quantity(NamedTuple):
     unit: str
     meaning: str
     of: Callable[..., FloatArray]
-    """Its history (time, ...) in a Dataset; of a sum the increments of steps first <= k < last."""
+    """Function from a Dataset to the history (time, ...); of a sum the increments of steps first <=
+    k < last.
+    """
     kind: Literal["peak", "final", "sum"] = "peak"
     """Largest value, value at the last step, or sum over steps."""
     by_step: bool = False
     """True if compiled code fills it, for each bearing at each step (`bearing_quantities`)."""
     title: str = ""
-    """Its row in the table of peaks."""
+    """Title of its row in the table of peaks."""
     demand: str = ""
-    """Its title among demands and checks."""
+    """Title among demands and checks."""
     checked: str = ""
-    """Its title among checks, if tables of demands leave it out."""
+    """Title among checks, if tables of demands leave it out."""
     note: str = ""
     """Remark beside the demand."""
     sign: float = 1.0
-    """With which tables show it."""
+    """Sign in tables."""
     shown: str = ""
     """Unit of figures, if it is not the usual one."""
     raised: Literal["", "factor", "difference"] = ""
@@ -80,7 +82,7 @@ class Quantity(NamedTuple):
 
     @property
     def in_figures(self) -> tuple[str, float]:
-        """Its unit in figures, and the factor to it."""
+        """Unit in figures, and the factor to it."""
         return _IN_FIGURES.get(self.shown or self.unit, (self.pure_unit, 1.0))
 
     @property
@@ -96,12 +98,12 @@ class Quantity(NamedTuple):
 
     @property
     def heading(self) -> str:
-        """Its title among checks, and in tables of single motions."""
+        """Title among checks, and in tables of single motions."""
         return self.demand or self.checked
 
     @property
     def pure_unit(self) -> str:
-        """Its unit in tables of design: "-" of a pure number."""
+        """Unit in tables of design: "-" of a pure number."""
         return "-" if self.unit == "1" else self.unit
 
 

@@ -87,7 +87,7 @@ class Run(NamedTuple):
     """Results of a run."""
 
     data: xr.Dataset
-    """Its result, or the checked part if histories are reduced."""
+    """Result, or the checked part if histories are reduced."""
     judged: xr.Dataset
     """Input of the assumption check; the same attributes."""
     outcome: Outcome

@@ -42,7 +42,7 @@ class ModelCheck:
     name : str
         Name of the frame.
     mass : float
-        In all [kg].
+        Total mass [kg].
     weight : float
         Permanent vertical load in all, weights and loads [N].
     loads : tuple of 3 floats

@@ -64,10 +64,10 @@ class Overturning(NamedTuple):
 def overturning_share(system: System) -> Overturning:
     """Return the share of the bearings' axial forces in an overturning moment [-].
 
-    Two static loads along each direction, bearings as linear springs: every mass above the bearings
-    pushed sideways, whose moment about the tops of the bearings is the sum of m (z - z_t), and
-    vertical forces on the tops of the bearings that rise linearly over the plan. The rest of either
-    moment goes to supports that hold the structure's tilt.
+    Two static loads along each direction, bearings as linear springs. In the first every mass above
+    the bearings is pushed sideways; its moment about the tops of the bearings is the sum of m (z -
+    z_t). The second has vertical forces on the tops of the bearings that rise linearly over the
+    plan. The rest of either moment goes to supports that hold the structure's tilt.
     """
     tops = np.array([placed.j for placed in system.bearings])
     mass = np.where(system.above_bearings, system.node_mass[:, 0], 0.0)

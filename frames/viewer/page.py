@@ -54,7 +54,7 @@ def write_view(
     data : xarray.Dataset
         Result of `frames.time_history` with all nodes and all variables of bearings.
     model : Frame
-        Its model.
+        Model of the time history.
     path : str or path
         The file, "view.html"; one that is there is replaced.
     checks : iterable of Check

@@ -57,7 +57,7 @@ class ShownCheck(Protocol):
 
     @property
     def concerns(self) -> str:
-        """Its part, bound and level."""
+        """Part, bound and level."""
 
     @property
     def relation(self) -> str:

@@ -110,9 +110,9 @@ class LIRBearing(Specification):
         Moments of inertia of both sliders about a transverse axis through the mass centre and
         about the slider's axis [kg m2].
     contact_points : int, optional
-        At the levels "contact" and "rigid_body" each face of a slider is a disc on an elastic bed,
-        in closed form. For comparison, a number replaces it by that many contact points: 4 to 7 on
-        the slider's edge, an even number from 8 to 64 on two rings, 96, 128, ... on rings of 32.
+        Contact points of each slider face at the levels "contact" and "rigid_body", for comparison:
+        4 to 7 on the slider's edge, an even number from 8 to 64 on two rings, 96, 128, ... on rings
+        of 32. Default: a disc on an elastic bed, in closed form.
     allow_weak_interface : bool
         Accept ``mu_h <= mu_d``, with which the device does not work as intended.
     pressure_dependence : PressureDependence, optional
@@ -183,7 +183,7 @@ class LIRBearing(Specification):
         Returns
         -------
         LIRBearing
-            Whose `period` is the one given.
+            The bearing of that `period`.
 
         Raises
         ------

@@ -47,7 +47,7 @@ class FrictionValues(NamedTuple):
     most, drop : float
         Friction coefficient at high speed [-], and its reduction at rest [-].
     rate : float
-        Its steepest growth over the drop [s/m]; of Eq. (1) the rate parameter.
+        Steepest growth over the drop [s/m]; for Eq. (1) the rate parameter.
     table : tuple of float
         Entries of `PROPS` "friction_table"; empty for Eq. (1).
     error : float

@@ -200,10 +200,10 @@ def isolate(
     In the plane (ndm 2, ndf 3) put the bearings by `bearing_element`, one by one.
 
     The superstructure must leave the base free to rise: a pendulum rises as it moves, by ``U**2 /
-    (2 L)``. A part that resists the rise (an old vertical spring under a column, a tie to the
-    ground, a stiff wall on fixed supports) changes the load of the bearing and of its neighbours.
-    Supports (`base_rotations`), base beams or continuous columns must hold the rotations of the
-    upper plates about horizontal axes. A bearing does not.
+    (2 L)``. An old vertical spring under a column, a tie to the ground or a stiff wall on fixed
+    supports resists the rise, and so changes the loads of the bearings. Supports
+    (`base_rotations`), base beams or continuous columns must hold the rotations of the upper plates
+    about horizontal axes. A bearing does not.
 
     Call it while the base nodes are at their initial places, before the gravity analysis or after
     it. Then find equilibrium (one static step at least), because the bearings now carry the loads.

@@ -251,7 +251,7 @@ def bearing_tags() -> tuple[int, ...]:
     Returns
     -------
     tuple of int
-        In the order in which they were added.
+        Tags, in the order in which the bearings were added.
 
     Examples
     --------

@@ -165,7 +165,7 @@ def record_bearings(*tags: int, every: int = 1) -> BearingRecording:
     Returns
     -------
     BearingRecording
-        Its `dataset()` may be called at any time, also after a wipe.
+        The recording. Its `dataset()` may be called at any time, also after a wipe.
 
     Raises
     ------

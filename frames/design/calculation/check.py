@@ -36,7 +36,7 @@ class Check:
     title : str
         Title of the check, in a few words.
     demand, limit : float
-        Limit in `unit`; infinite if there is none, as the capacity of a bearing without rims.
+        Values in `unit`; infinite if there is none, as the capacity of a bearing without rims.
     symbol : str
         Symbol of the demand in the calculation.
     unit : str

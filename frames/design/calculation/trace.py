@@ -65,7 +65,7 @@ class Trace:
         Parameters
         ----------
         symbol : str
-            Its name: letters, digits and underscores; ``beta_M`` is shown as β_M.
+            Name of the number: letters, digits and underscores; ``beta_M`` is shown as β_M.
         value : float
             The number, in `unit`.
         unit : str
@@ -303,12 +303,12 @@ class Step:
 
     @property
     def symbol(self) -> str:
-        """Its symbol."""
+        """Symbol of the result."""
         return self.result.symbol
 
     @property
     def value(self) -> Value:
-        """Its value, in `unit`."""
+        """Value in `unit`."""
         return self.result.value
 
     @property
@@ -347,6 +347,6 @@ class Step:
 
     @property
     def said(self) -> str:
-        """Its source and note in brackets, empty if it has none."""
+        """Source and note in brackets, empty if there is none."""
         said = joined(self.source, self.note)
         return f"[{said}]" if said else ""

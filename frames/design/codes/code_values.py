@@ -57,7 +57,7 @@ class Provision(NamedTuple):
     needs : tuple of str
         Facts of `NEEDS` without which they are not made.
     why : str
-        Why no check is made, or how the engineer shows it.
+        Reason that no check is made, or how the engineer shows it.
     yours : bool
         True if no program can check it, or this one leaves it to the engineer.
     only : str

@@ -70,7 +70,7 @@ class LinearAnalysis(abc.ABC):
         Parameters
         ----------
         system : IsolationSystem
-            With properties at that bound.
+            The system with properties at that bound.
         spectrum : Spectrum
             Spectrum of the level of the code's analysis.
         bound : {"lower", "nominal", "upper"}
@@ -326,7 +326,7 @@ def capacity_check(
     Parameters
     ----------
     t : Trace
-        With the demand of each bearing.
+        Calculation with the demand of each bearing.
     system : IsolationSystem
         The system.
     judge : CheckBuilder

@@ -56,7 +56,7 @@ class EN1998(LinearAnalysis):
         Factor on the displacement that bearings must allow: gamma_x = 1.2 for buildings
         (EN 1998-1 10.3), gamma_IS = 1.5 for bridges (EN 1998-2 7.6.2).
     accidental_eccentricity : float
-        Over the side of the plan (EN 1998-1 4.3.2).
+        Accidental eccentricity over the side of the plan (EN 1998-1 4.3.2).
     behaviour : float
         Behaviour factor q of the superstructure, 1.5 at most (EN 1998-1 10.10).
     energy_ratio : float

@@ -34,7 +34,7 @@ class ActionLevel:
     name : str
         Name in tables and checks.
     factor : float
-        On motions that are scaled to the design spectrum [-], at least 1.
+        Factor on motions that are scaled to the design spectrum [-], at least 1.
     judges : {"all", "superstructure", "isolation"}
         Checked parts at this level: the structure above (base shear, storey shears and drifts,
         accelerations), the bearings (displacement, rims, slip, forces, uplift), or both.
@@ -94,7 +94,7 @@ class HistoryRules:
     drift : float, optional
         Limit of the storey drift ratio [-]; None if the code has none for this level of motion.
     drift_factor : float
-        On the drift that is held against it [-]: to a more frequent earthquake, nu of EN 1998.
+        Factor on the drift compared with it [-]: to a more frequent earthquake, nu of EN 1998.
     drift_classes : tuple of (str, float)
         Kinds of non-structural elements with the limit of each [-], if a code has several; a
         project names one.
@@ -108,7 +108,7 @@ class HistoryRules:
         Largest coefficient of P-Delta theta = P d / (V h) of a storey [-], without and with the
         effects of gravity on the displaced structure in the analysis; None if the code has none.
     displacement_factor : float
-        On the isolators' displacement [-].
+        Factor on the isolators' displacement [-].
     uplift_allowed : bool
         True if bearings may lift off; if not, a run in which one does is unacceptable.
     least_gap : float

@@ -91,7 +91,7 @@ class SpectrumKey(NamedTuple):
     unit : str
         Unit that it must be given in, "m/s^2" or "s"; "" for a pure number.
     default : object
-        Its value if it is left out; it must be given if None.
+        Default; the key is required if None.
     most : float, optional
         Largest number [SI].
     optional : bool
@@ -173,7 +173,7 @@ class DesignCode(HazardRules):
     rims : RimRule
         Requirement on the displacement at rim contact.
     tests : callable
-        Its tests of bearings, made of a `DesignToTest`.
+        Returns the tests of bearings from a `DesignToTest`.
     accepted : tuple of AcceptanceRule
         Acceptance criteria of its tests, as the programme states them.
     acceptance : str
@@ -252,7 +252,7 @@ class DesignCode(HazardRules):
         Returns
         -------
         Spectrum
-            With the code's damping factors.
+            The spectrum, with the code's damping factors.
 
         Raises
         ------

@@ -50,7 +50,7 @@ def secant(t: Trace, displacement: str, symbols: Symbols, source: str, level: st
     Parameters
     ----------
     t : Trace
-        From `enter_system`, with the displacement.
+        Calculation of `enter_system`, with the displacement.
     displacement : str
         Symbol of the displacement.
     symbols : Symbols

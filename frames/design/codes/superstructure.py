@@ -106,7 +106,8 @@ class Superstructure:
         Returns
         -------
         Superstructure
-            Its fixed-base period is the longest of the frame with bearings and base held.
+            Model of the structure; its fixed-base period is the longest with bearings and base
+            held.
 
         Raises
         ------

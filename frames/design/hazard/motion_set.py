@@ -171,7 +171,7 @@ class MotionSet(MotionCollection):
         Returns
         -------
         MotionSet
-            These, in their order.
+            The motions in the order of `names`.
 
         Raises
         ------
@@ -295,7 +295,7 @@ class MotionSet(MotionCollection):
         Parameters
         ----------
         factors : sequence of float
-            On the second shock [-], >= 0; 0 leaves it out.
+            Factors on the second shock [-], >= 0; 0 leaves it out.
         following : {"same", "next"}
             The second shock: "same", or "next" of the set; the first follows the last.
         gap : float
@@ -345,9 +345,9 @@ class MotionSet(MotionCollection):
     ) -> MotionSet:
         """Return the set scaled so that its mean spectrum satisfies a code.
 
-        One factor a motion, on all its components: the factor that fits its spectrum to the target
-        (least squares of the logarithms within the range), times one factor for all, the least with
-        which the mean is nowhere below the code's requirement.
+        Each motion gets one factor on all its components. It fits the motion's spectrum to the
+        target (least squares of the logarithms within the range), times a factor common to all
+        motions: the least with which the mean is nowhere below the code's requirement.
 
         Parameters
         ----------

@@ -42,7 +42,7 @@ class Spectrum(ElasticSpectrum):
     shape : str
         Family of formulas (`frames.design.hazard.spectral_shapes.SHAPES`).
     damping_code : str
-        Whose damping factors it is divided by ; empty: it holds for 5 % alone.
+        Code of the damping factors by which it is divided; empty: it is for 5 % alone.
     constants : tuple of (str, float)
         Parameters by symbol.
     points : tuple of (float, float)
@@ -87,7 +87,7 @@ class Spectrum(ElasticSpectrum):
         Returns
         -------
         Spectrum
-            For the design earthquake, take ``.scaled(2 / 3)``.
+            The spectrum. For the design earthquake, use ``.scaled(2 / 3)``.
 
         Raises
         ------

@@ -214,7 +214,7 @@ def synthetic_near_fault(
         Closest distance to the rupture [km], at most 20. It changes the background, but not the
         pulse: set `pulses` if you have better values.
     seed : int
-        Same seed, same motions.
+        Seed of the random numbers: the same seed gives the same motions.
     source : PointSource, optional
         The background's source and site, in place of that of the magnitude and the distance with
         defaults; it must have the same two.

@@ -124,8 +124,8 @@ def history_checks(
         Limits of bearings and structure; the code's own limits are checked beside.
     equivalent : EquivalentLinear, optional
         For a code with minima (`HistoryRules.has_minima`: ASCE 7-22), with a superstructure. At its
-        bounds its minima apply to displacement and base shear, drifts grow as the base shear does,
-        and the shear of the storey over the lowest level is compared with its least value.
+        bounds its minima apply to displacement and base shear, and drifts grow as the base shear
+        does. The shear of the storey over the lowest level is compared with its least value.
     action_level : str
         Level of the seismic action of the runs, if the code has several: NCh2745 checks the
         structure above at "design", the bearings at "maximum".
@@ -139,11 +139,12 @@ def history_checks(
     Returns
     -------
     Checks
-        At each bound, as far as the level covers it: number of motions, failed runs, displacement,
-        slip, rims and forces of the worst bearing, drift of the worst storey, and the quantities in
-        `limits`. If more runs failed than the rules allow, there are no values from the others:
-        each check that needs them fails (`Check.void`), its demand is the peak of the runs, and its
-        note names the failed runs. Notes also give the findings of the runs' assumption checks.
+        The checks at each bound, as far as the level covers it: number of motions, failed runs,
+        displacement, slip, rims and forces of the worst bearing, drift of the worst storey, and the
+        quantities in `limits`. If more runs failed than the rules allow, there are no values from
+        the others: each check that needs them fails (`Check.void`), its demand is the peak of the
+        runs, and its note names the failed runs. Notes also give the findings of the runs'
+        assumption checks.
 
     Raises
     ------

@@ -35,8 +35,8 @@ def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, f
     Parameters
     ----------
     equivalent : EquivalentLinear
-        Its effective periods at all its bounds count; of NCh2745, which has two levels, the
-        shortest is T_D and the longest T_M.
+        The analysis, with its effective periods at all its bounds; of NCh2745, which has two
+        levels, the shortest is T_D and the longest T_M.
     rule : str
         Rule of a code, or "ASCE 7-16"; that of the analysis' code if empty.
 
@@ -84,7 +84,7 @@ def motion_checks(
     spectrum : Spectrum
         The target.
     equivalent : EquivalentLinear
-        Its effective periods make the range.
+        The analysis, whose effective periods give the range.
     rule : str
         Rule of a code; that of the analysis' code if empty. "ASCE 7-16" needs SRSS in ASCE 7-22's
         range. The number of pairs is that of the analysis' code.

@@ -130,7 +130,7 @@ def event_checks(
     ends : tuple of float
         Times at which the events end, pauses included [s], rising.
     limits : DesignLimits, optional
-        Its `slip_left` and `displacement_left` count.
+        Limits; `slip_left` and `displacement_left` count.
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings in this run.
 

@@ -68,7 +68,7 @@ class CrackedTable(Table):
 
     @property
     def factors(self) -> tuple[float, float | None, float | None]:
-        """On bending, torsion and shear; None is that of bending."""
+        """Factors on bending, torsion and shear; None is that of bending."""
         return self.bending, self.torsion, self.shear
 
 

@@ -33,7 +33,7 @@ LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
 """Letters of axes; I and O are left out, because they look like numbers."""
 
 CLEARANCE = 0.005
-"""By which a bearing is free when it is drawn out [m], a proposal."""
+"""Free height over a bearing when it is drawn out [m], a proposal."""
 
 _SAME_LINE = 0.10  # m: places that near are on one axis
 

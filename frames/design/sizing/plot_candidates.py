@@ -49,7 +49,7 @@ def design_candidates(
     found : Design, or sequence of Candidate
         The proposal, or its candidates.
     target : DesignTarget, optional
-        Its limits of displacement, base shear and plan diameter are drawn.
+        Target whose limits of displacement, base shear and plan diameter are drawn.
 
     Returns
     -------

@@ -120,7 +120,7 @@ class Design:
         Returns
         -------
         tuple of LIRBearing, (n_bearings,)
-            In the order of the system.
+            The bearings in the order of the system.
 
         Raises
         ------

@@ -38,11 +38,11 @@ class Prices:
     bearing : float
         Price of each bearing at any size: tests, transport, placing.
     volume : float
-        Per cubic metre of the bearings: area of the plates times height of the slider.
+        Price per cubic metre of the bearings: area of the plates times height of the slider.
     liner : float
-        Per square metre of liner: both surfaces of a slider and its interface.
+        Price per square metre of liner: both surfaces of a slider and its interface.
     gap : float
-        Per metre of the displacement that the gap around the building must allow.
+        Price per metre of the displacement that the gap around the building must allow.
 
     Raises
     ------

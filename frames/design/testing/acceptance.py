@@ -110,9 +110,9 @@ def acceptance_checks(
     Raises
     ------
     CheckError
-        If there is no test, displacements of a set's cycles differ by more than a tenth, the code
-        is unknown, the bearing has no interface to test, or two surfaces of different friction do
-        not both slide.
+        If there is no test, or the displacements of a set's cycles differ by more than a tenth. If
+        the code is unknown, the bearing has no interface to test, or two surfaces of different
+        friction do not both slide.
 
     Notes
     -----

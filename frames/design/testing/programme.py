@@ -88,8 +88,8 @@ def prototype_tests(
     Parameters
     ----------
     equivalent : EquivalentLinear
-        Its code decides, and its displacement, period
-        and damping factor at the bound of the largest displacement count.
+        The analysis: its code, and its displacement, period and damping factor at the bound of the
+        largest displacement.
     system : IsolationSystem
         The bearings with nominal friction, their average loads and combinations. Equal bearings
         are one kind, which is tested at the mean of its average loads.
@@ -110,8 +110,7 @@ def prototype_tests(
         the production those of the specification, all factors together if these are not given. NaN:
         not given, or without meaning. An LIR-DCFP has further tests that no code has: the interface
         alone, and impacts. If the system's loads are unknown (`IsolationSystem.unknown_loads`) and
-        `demands` gives none, tests at the largest and the least load have NaN for it, and a note
-        with the reason.
+        `demands` gives none, the largest and the least load are NaN, with the reason in a note.
 
     Raises
     ------

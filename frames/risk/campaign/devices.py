@@ -65,7 +65,7 @@ class Device:
         Plate diameter beyond that of the bearings, with their rim displacement around the widest
         slider for a load [m]: instead of plan, for several structures.
     rim_stiffness : float
-        Over that of the bearings [-].
+        Plate diameter over that of the bearings [-].
     rim_overrun : float, optional
         Deformation at which a rim breaks [m].
     backup : BackupSupport, optional

@@ -186,8 +186,8 @@ def expected_loss(
     data : xarray.Dataset
         Results of a campaign.
     runs : mapping of str to IntensityRuns
-        Its runs by structure, ``IntensityRuns.from_dataset(data, ..., parameters="all")``, over the
-        measure of the hazard; the first is the one that the others are compared with.
+        Runs by structure, ``IntensityRuns.from_dataset(data, ..., parameters="all")``, over the
+        measure of the hazard; the first is the reference of the others.
     components : sequence of LossComponent
         Repaired components.
     hazard : HazardCurve or mapping of str to HazardCurve

@@ -30,15 +30,15 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
     Parameters
     ----------
     old : str or path
-        Its folder, which stays as it is.
+        Folder of the old database, which stays unchanged.
     new : str or path
         The folder to be made.
 
     Returns
     -------
     CampaignStore
-        With the same rows and histories. To run the missing ones, `Campaign.run` needs
-        `accept_other_sources=True`.
+        The new database, with the same rows and histories. To run the missing ones, `Campaign.run`
+        needs `accept_other_sources=True`.
 
     Raises
     ------

@@ -34,7 +34,7 @@ class PlannedRun(NamedTuple):
 
     @property
     def title(self) -> str:
-        """Its structure in words."""
+        """Structure of the run in words."""
         return f"{self.model}, set {self.parameters}"
 
 

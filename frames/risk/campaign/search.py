@@ -55,7 +55,7 @@ class MedianSearch:
     bounds : mapping of str to (float, float)
         Bounds of each number [SI].
     limit : LimitState
-        Whose median is made as large as can be.
+        Limit state whose median is maximised.
     intensity : Intensity
         Measure of the motions' intensity.
     scales : sequence of float

@@ -218,12 +218,12 @@ class CampaignStore:
         Parameters
         ----------
         run : int
-            Its row.
+            Row of the run.
 
         Returns
         -------
         xarray.Dataset
-            Over `time` or `step`, read on use.
+            Histories over `time` or `step`, read on use.
 
         Raises
         ------
@@ -307,7 +307,8 @@ def open_campaign(path: str | Path) -> CampaignStore:
     Returns
     -------
     CampaignStore
-        With `results()`, `to_dataframe()`, `status()`, `histories(run)` and `digest()`.
+        The results, with `results()`, `to_dataframe()`, `status()`, `histories(run)` and
+        `digest()`.
 
     Raises
     ------

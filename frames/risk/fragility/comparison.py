@@ -119,7 +119,7 @@ def compare_fragility(
     first, second : Fragility or CollapseFragility
         The curves, fitted with the same records, seed and number of resamples.
     hazard : HazardCurve, optional
-        For rates; without it medians alone are compared.
+        Hazard for rates; without it medians alone are compared.
 
     Returns
     -------

@@ -31,7 +31,7 @@ class Estimate(Shown):
     unit : str
         Unit of the intensity.
     intensity : IntensityMeasure or None
-        Its measure; None if it was not given.
+        Intensity measure; None if it was not given.
     method : str
         Method of the fit, with its source.
     records : tuple of str

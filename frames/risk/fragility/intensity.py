@@ -72,7 +72,7 @@ class IntensityMeasure(Protocol):
 
     @property
     def label(self) -> str:
-        """Its name, in a few words; two of one label and unit are the same measure."""
+        """Name, in a few words; two of one label and unit are the same measure."""
         ...
 
     def of(self, motion: GroundMotion, /) -> float:
@@ -103,7 +103,7 @@ class Measured(Protocol):
 
     @property
     def intensity(self) -> IntensityMeasure | None:
-        """Its measure, None if it was not given."""
+        """Intensity measure, None if it was not given."""
         ...
 
 
@@ -195,7 +195,7 @@ class Intensity:
 
     @property
     def label(self) -> str:
-        """Its name, in a few words."""
+        """Name, in a few words."""
         if self.kind == "scale":
             return "factor on the motion"
         at = ""
@@ -218,7 +218,7 @@ class Intensity:
         Returns
         -------
         float
-            Its intensity, in `unit`.
+            Intensity, in `unit`.
 
         Raises
         ------

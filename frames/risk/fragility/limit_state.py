@@ -27,7 +27,7 @@ class LimitState:
     Parameters
     ----------
     name : str
-        Its name.
+        Name of the limit state.
     quantity : str, optional
         A quantity of `frames.peaks`; None: failure of a bearing alone.
     limit : float, optional
@@ -79,7 +79,7 @@ class LimitState:
         Returns
         -------
         LimitState
-            Its limit is s* [m].
+            The limit state, with the limit s* [m].
 
         Raises
         ------

@@ -51,7 +51,7 @@ class Risk(Shown):
     unit : str
         Unit of the intensity.
     intensity : IntensityMeasure or None
-        Its measure, of the curve or of the hazard; None if neither has one.
+        Intensity measure, of the curve or of the hazard; None if neither has one.
     rate : float
         Mean annual frequency of exceedance [1/year], of intensities within the hazard curve.
     resampled : ndarray, shape (resamples,)

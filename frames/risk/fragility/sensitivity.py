@@ -53,8 +53,8 @@ def tornado(results_of: Batch, parameters: Mapping[str, tuple[float, float, floa
     Parameters
     ----------
     results_of : callable
-        Function that is called once with a list of sets of parameters (dicts of numbers by name)
-        and returns a result each, such as a median displacement of a batch of time histories.
+        Function from a list of sets of parameters (dicts of numbers by name) to a result each, such
+        as a median displacement of a batch of time histories. It is called once.
     parameters : mapping of str to (float, float, float)
         Low, base and high value by name.
 

@@ -114,15 +114,15 @@ def sobol_indices(
     widest : float
         Width of the interval beyond which an index is no result [-].
     quantity : str or callable
-        For a campaign: a quantity of `frames.peaks`, or a function that returns one number for each
-        run of the Dataset of one structure.
+        Quantity of a campaign: one of `frames.peaks`, or a function that returns one number for
+        each run of the Dataset of one structure.
     at_most : float, optional
-        For a campaign: upper limit of the values [SI]; larger ones and those of failed bearings
-        count as this.
+        Upper limit of the values of a campaign [SI]; larger ones and those of failed bearings count
+        as this.
     model : str, optional
-        For a campaign: the structure; needed if there are several.
+        Structure of a campaign; needed if there are several.
     scale : float, optional
-        For a campaign: the factor on the motions; needed if there are several.
+        Factor on the motions of a campaign; needed if there are several.
 
     Returns
     -------

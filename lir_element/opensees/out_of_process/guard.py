@@ -30,8 +30,8 @@ class Guard:
     Parameters
     ----------
     pipe : Connection or None
-        To the server; its end is the server's end. None: there is no server from the beginning,
-        and every connection is added before `start`.
+        Socket to the server; its end is the server's end. None: there is no server from the
+        beginning, and every connection is added before `start`.
     message : str
         Message to the user if the server ends, or requests an element that does not exist.
     """
