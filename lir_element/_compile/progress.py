@@ -59,7 +59,7 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
     Parameters
     ----------
     ours : callable
-        True if a numba dispatcher belongs to this program.
+        Returns True if a numba dispatcher belongs to this program.
     where : callable
         Returns the destination of the kernels, in words.
     clock : callable

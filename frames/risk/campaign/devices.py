@@ -38,7 +38,7 @@ class Device:
     Parameters
     ----------
     kind : {"LIR-DCFP", "DCFP"}
-        True if the sliders are in two pieces, False if rigid.
+        Slider in two pieces, or rigid.
     pressure : float, optional
         Pressure on each slider under the load of its bearing at rest [Pa]: it gives radius and
         design load.
