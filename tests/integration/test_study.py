@@ -108,7 +108,7 @@ def test_a_part_is_a_file_and_a_template(tmp_path, monkeypatch, capsys):
         recompute, "LIMITS", {"study_after": ("collapse", "storey drift, mean", 0.003)}
     )
     recompute.main(str(tmp_path), str(to))
-    found = re.findall(r"page (\S+), recomputed (\S+), difference", capsys.readouterr().out)
+    found = re.findall(r": ([-\d.e]+), (\S+), \S+\n", capsys.readouterr().out)
     assert len(found) == 8
     for page, again in found:
         assert float(again) == pytest.approx(float(page), rel=1e-4)

@@ -6,14 +6,13 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from frames import time_histories
-from frames.risk.campaign.devices import highest_ratio
 from frames.risk.campaign.ductility import DUCTILITY, ductility
 from lir_element.units import STANDARD_GRAVITY
 from validation.page import table
 from validation.study.part import quietly
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Sequence
 
     from frames.risk.campaign.tables import CampaignTables
 
@@ -26,21 +25,6 @@ SHOWN = {
     "interface slip": ("interface slip [mm]", 1e3, ".1f"),
 }
 """Demands that are compared: their text, a factor from SI, a format."""
-
-
-def checked(tables: CampaignTables) -> dict[str, float]:
-    """Return the ratio of the check that governs each LIR-DCFP, by device: above 1 it fails."""
-    found = {name: highest_ratio(frame) for name, frame in tables.frames.items()}
-    return {name: ratio for name, ratio in found.items() if ratio > 0.0}
-
-
-def checks_said(ratios: Mapping[str, float]) -> str:
-    """Return which LIR-DCFPs are within the package's checks, and which are beyond."""
-    words = "; ".join(
-        f"{name} {ratio:.2f}" + (", beyond the checks" if ratio > 1.0 else "")
-        for name, ratio in ratios.items()
-    )
-    return f"Ratio of the check that governs (`lir check`, nominal properties; above 1 fails): {words}."
 
 
 def at_two_steps(
