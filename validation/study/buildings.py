@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from frames.risk.campaign.tables import CampaignTables
 
 WIDTH, HEIGHT = 12.0, 3.5
-"""Of the plan and of a storey [m]."""
+"""Width of the plan, height of a storey [m]."""
 
 UPLIFT = 0.05
-"""Above which runs are counted [m]."""
+"""Uplift above which runs are counted [m]."""
 
 
 def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:

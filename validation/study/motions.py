@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 LIR, PLAIN = DEVICES = ("LIR-DCFP", "DCFP")
 ANGLES = 0, 30, 60
-"""By which records are turned [degrees]: the building is its own image after a quarter turn."""
+"""Angles of the records [degrees]: the building is its own image after a quarter turn."""
 
 SECONDS = ("same", 0.5), ("same", 1.0), ("next", 1.0)
 """Second shocks: the same record or the next of the set, and the factor on it."""

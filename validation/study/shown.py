@@ -20,7 +20,7 @@ SETTING = (
     "others are DCFPs ([study_device.md](study_device.md)). Rims of 1 W yield at the load of their "
     "bearing and break at 20 mm."
 )
-"""Of parts that have the building and devices of the part on devices."""
+"""Building and devices of most parts, in words."""
 
 READING = (
     "Cells begin with the verdict of an exact two-sided sign test of the records; the verdicts of a "
@@ -30,7 +30,7 @@ READING = (
     "in 3 records, and more often in none. Comparisons share records and the building, so they are "
     "not independent."
 )
-"""Of tables of `judged`."""
+"""How to read tables of `judged`."""
 
 DEMANDS = {
     "storey drift, mean": ("storey drift [%]", 1e2, ".2f"),
