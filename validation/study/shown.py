@@ -41,6 +41,9 @@ DEMANDS = {
 }
 """Demands of the table "response": their text, a factor from SI, a format."""
 
+OPEN = 1.7
+"""Upper end over value from which an interval counts as open [-]."""
+
 NONE = "-"
 """What stands where there is no number."""
 
@@ -55,7 +58,10 @@ def where(table: pd.DataFrame, **chosen: object) -> pd.DataFrame:
 
 
 def interval(row: Mapping[str, Any], name: str, form: str = ".2f", factor: float = 1.0) -> str:
-    """Return a number of a row with its interval; a dash where there is none."""
+    """Return a number of a row with its interval, or "above" its low end if it has no upper one.
+
+    A median far beyond the stripes has none; a dash stands for no number.
+    """
     column = next((str(c) for c in row.keys() if str(c).split(" [")[0] == name), name)  # noqa: SIM118
     value = row.get(column)
     if value is None or pd.isna(value):
@@ -63,6 +69,8 @@ def interval(row: Mapping[str, Any], name: str, form: str = ".2f", factor: float
     unit = column.removeprefix(name)
     ends = [row.get(f"{name}, {end}{unit}", row.get(f"{end}{unit}")) for end in ("low", "high")]
     one, *both = (f"{factor * v:{form}}" for v in (value, *ends) if v is not None)
+    if both and ends[1] > OPEN * value > 0.0:
+        return f"above {both[0]}"
     return f"{one} ({both[0]} to {both[1]})" if both else one
 
 
