@@ -240,7 +240,7 @@ def isolate(
     up = _AXES[vertical]
     check_base(ops, bases, metre)
     grounds = new_tags(ops.getNodeTags(), ground_tags, bases, "ground_tags", "node")
-    elements = new_tags(element_tags(), tags, bases, "tags", "element")
+    elements = new_tags(element_tags(ops), tags, bases, "tags", "element")
     groups = not_alone(ops, bases, up, metre) if base_diaphragm else []
     check_ties(ops, bases, groups)
     notes = doubts(ops, bases, up)

@@ -1,8 +1,9 @@
-"""Import of openseespy in any of its builds."""
+"""Import of openseespy in any of its builds, and the same commands of xara."""
 
 from __future__ import annotations
 
 import ctypes
+import functools
 import importlib
 import importlib.util
 import sys
@@ -41,9 +42,8 @@ def opensees() -> Any:
     if _NAME in sys.modules:
         return sys.modules[_NAME]
     if importlib.util.find_spec("openseespy") is None:
-        other = "xara" if importlib.util.find_spec("xara") else ""
-        note = f" ({other} is, in which the bearing is not tried)" if other else ""
-        msg = f'openseespy is not installed{note}: pip install "lir-dcfp[opensees]"'
+        other = "; or pass a model of xara by ops=" if importlib.util.find_spec("xara") else ""
+        msg = f'openseespy is not installed: pip install "lir-dcfp[opensees]"{other}'
         raise ImportError(msg)
     _load_bundled_libraries()
     try:
@@ -52,6 +52,59 @@ def opensees() -> Any:
         version = ".".join(map(str, sys.version_info[:3]))
         msg = f"openseespy cannot be loaded by Python {version} ({cause}): reinstall it by pip"
         raise ImportError(msg) from cause
+
+
+class XaraCommands:
+    """The commands of a model in xara, with the names and results of OpenSeesPy."""
+
+    def __init__(self, model: Any) -> None:
+        self._model = model
+
+    def __getattr__(self, name: str) -> Any:
+        """Return a command that is the same in both."""
+        return getattr(self._model, name)
+
+    def getNodeTags(self) -> list[int]:  # noqa: N802
+        """Return the tags of all nodes."""
+        return self._tags("getNodeTags")
+
+    def getEleTags(self) -> list[int]:  # noqa: N802
+        """Return the tags of all elements."""
+        return self._tags("getEleTags")
+
+    def getFixedNodes(self) -> list[int]:  # noqa: N802
+        """Return the tags of nodes with supports."""
+        return self._tags("fixedNodes")
+
+    def getFixedDOFs(self, tag: int) -> list[int]:  # noqa: N802
+        """Return the fixed degrees of freedom of a node."""
+        return self._tags(f"fixedDOFs {tag}")
+
+    def remove(self, *what: Any) -> None:
+        """Remove an object; xara reports an element that it removed as an error."""
+        self._model.eval(f"catch {{remove {' '.join(map(str, what))}}}")
+
+    def _tags(self, command: str) -> list[int]:
+        # Of a model that was wiped there are none.
+        lines = f"if {{[catch {{{command}}} tags]}} {{return {{}}}}; return $tags"
+        return [int(tag) for tag in self._model.eval(f"apply {{{{}} {{{lines}}}}}").split()]
+
+
+def commands_of(ops: Any = None) -> Any:
+    """Return the commands of a model: OpenSeesPy's, or those of xara's model or module."""
+    if ops is None:
+        return opensees()
+    if getattr(ops, "__name__", "") == _NAME or isinstance(ops, XaraCommands):
+        return ops
+    if not hasattr(ops, "eval"):
+        msg = f"ops = {ops!r} must be a model of xara (xara.Model), or left out for OpenSeesPy"
+        raise TypeError(msg)
+    return _commands_of_xara(ops)
+
+
+@functools.cache  # the same model has the same commands; xara keeps models until the end, too
+def _commands_of_xara(model: Any) -> XaraCommands:
+    return XaraCommands(model)
 
 
 def _load_bundled_libraries() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import functools
 import os
 import warnings
 from collections.abc import Sequence
@@ -18,7 +19,7 @@ from lir_element.opensees.element_memory import ElementMemory, entries_of
 from lir_element.opensees.in_process.in_process_element import InProcessElement
 from lir_element.opensees.in_process.selftest import why_not_fast
 from lir_element.opensees.in_process.symbols import NotPossibleError
-from lir_element.opensees.library import opensees
+from lir_element.opensees.library import XaraCommands, commands_of
 from lir_element.opensees.out_of_process.remote import (
     ForkedElements,
     Remote,
@@ -34,13 +35,14 @@ ROUTES = ("auto", "fast", "portable")
 Tangent = Literal["consistent", "symmetric"]
 TANGENTS = ("consistent", "symmetric")
 _LARGEST_TAG = 2**31 - 1
+_XARA = "the library of xara exports neither ops_getdomain_ nor Node::getTrialDisp"
 
 
 class _Session:
-    # The bearings of this process by tag, and the server of the out-of-process coupling.
+    # The bearings of this process by commands and tag, and the server that some of them have.
 
     def __init__(self) -> None:
-        self.bearings: dict[int, InProcessElement | Remote] = {}
+        self.bearings: dict[tuple[Any, int], InProcessElement | Remote] = {}
         self.server: Server | None = None
         self.forked_elements: ForkedElements | None = None
         self.told = False
@@ -48,10 +50,10 @@ class _Session:
     @signals_held()
     def sweep(self) -> None:
         """Release the memory of bearings that OpenSees has deleted."""
-        present = element_tags()
-        for tag, bearing in list(self.bearings.items()):
-            if tag not in present or not bearing.alive:
-                del self.bearings[tag]
+        tags = functools.cache(element_tags)
+        for (ops, tag), bearing in list(self.bearings.items()):
+            if not bearing.alive or tag not in tags(ops):
+                del self.bearings[ops, tag]
                 bearing.release()
 
     def running_server(self) -> Server:
@@ -79,7 +81,7 @@ class _Session:
         """Reset in a forked process: connections and server are the parent's."""
         remotes = self._remotes()
         self.bearings = {
-            tag: each for tag, each in self.bearings.items() if isinstance(each, InProcessElement)
+            key: each for key, each in self.bearings.items() if isinstance(each, InProcessElement)
         }
         if remotes:
             self.forked_elements = ForkedElements(remotes)
@@ -91,9 +93,9 @@ class _Session:
         return [each for each in self.bearings.values() if isinstance(each, Remote)]
 
 
-def element_tags() -> frozenset[int]:
-    """Return the tags of all elements of the current OpenSeesPy model."""
-    return frozenset(opensees().getEleTags() or ())
+def element_tags(ops: Any) -> frozenset[int]:
+    """Return the tags of all elements of the model."""
+    return frozenset(ops.getEleTags() or ())
 
 
 _SESSION = _Session()
@@ -114,8 +116,9 @@ def bearing_element(
     length_unit: float = 1.0,
     force_unit: float = 1.0,
     tangent: Tangent = "consistent",
+    ops: Any = None,
 ) -> str:
-    """Add a bearing to the current OpenSeesPy model.
+    """Add a bearing to the current OpenSeesPy model, or to a model of xara.
 
     Parameters
     ----------
@@ -139,6 +142,9 @@ def bearing_element(
     tangent : {"consistent", "symmetric"}
         "symmetric" for symmetric systems of equations (ProfileSPD, BandSPD, SparseSYM); see the
         notes.
+    ops : xara.Model, optional
+        The model, if it is one of xara, or its module `opensees.openseespy`. By default that of
+        OpenSeesPy.
 
     Returns
     -------
@@ -182,23 +188,27 @@ def bearing_element(
     _check(tag, bearing, level, route)
     tag = int(tag)
     require_choice("tangent", tangent, TANGENTS)
-    ops = opensees()
-    if tag in element_tags():
+    ops = commands_of(ops)
+    if tag in element_tags(ops):
         msg = f"element {tag} is in the model already: choose another tag"
         raise ValueError(msg)
     _SESSION.sweep()
     placement = place(ops, i, j, bearing, orient, length_unit, force_unit)
     placed = PlacedBearing(tag, bearing, level, placement, tangent == "symmetric")
-    chosen = _choose(route)
-    add = _add_fast if chosen == "fast" else _add_portable
+    why_not = _XARA if isinstance(ops, XaraCommands) else why_not_fast()
+    chosen = _choose(route, why_not)
     if chosen == "fast":
         entries_of(level)  # compiles on first use, which Ctrl-C may end
     with signals_held():
-        _SESSION.bearings[tag] = add(ops, placed)
+        _SESSION.bearings[ops, tag] = (
+            _add_fast(ops, placed)
+            if chosen == "fast"
+            else _add_portable(ops, placed, overridden=not why_not)
+        )
     return chosen
 
 
-def bearing_response(tag: int, name: str) -> Any:
+def bearing_response(tag: int, name: str, ops: Any = None) -> Any:
     """Return a response of a bearing as of the last committed step.
 
     Parameters
@@ -211,6 +221,8 @@ def bearing_response(tag: int, name: str) -> Any:
         model's axes; "localForce", "basicForce", "localDisplacement" and "deformation" are in local
         axes (x along the bearing's axis, y its x axis, z its y axis). "basicForce" is the force on
         node j, "deformation" its motion relative to node i. Or "route".
+    ops : xara.Model, optional
+        As for `bearing_element`.
 
     Returns
     -------
@@ -241,12 +253,17 @@ def bearing_response(tag: int, name: str) -> Any:
     0.0
     >>> ops.wipe()
     """
-    bearing = bearing_at(tag)
+    bearing = bearing_at(tag, ops)
     return bearing.route if name == "route" else bearing.response(name)
 
 
-def bearing_tags() -> tuple[int, ...]:
+def bearing_tags(ops: Any = None) -> tuple[int, ...]:
     """Return the tags of all bearings in the current model.
+
+    Parameters
+    ----------
+    ops : xara.Model, optional
+        As for `bearing_element`.
 
     Returns
     -------
@@ -271,14 +288,16 @@ def bearing_tags() -> tuple[int, ...]:
     >>> ops.wipe()
     """
     _SESSION.sweep()
-    return tuple(_SESSION.bearings)
+    host = commands_of(ops)
+    return tuple(tag for each, tag in _SESSION.bearings if each is host)
 
 
-def bearing_at(tag: int) -> InProcessElement | Remote:
+def bearing_at(tag: int, ops: Any = None) -> InProcessElement | Remote:
     """Return the object behind a bearing's element."""
-    found = _SESSION.bearings.get(tag)
-    if found is None or tag not in element_tags() or not found.alive:
-        msg = f"element {tag} is not a bearing of the current model: it has {bearing_tags()}"
+    host = commands_of(ops)
+    found = _SESSION.bearings.get((host, tag))
+    if found is None or tag not in element_tags(host) or not found.alive:
+        msg = f"element {tag} is not a bearing of the current model: it has {bearing_tags(host)}"
         raise ValueError(msg)
     return found
 
@@ -297,10 +316,9 @@ def _check(tag: object, bearing: object, level: str, route: str) -> None:
     require_choice("route", route, ROUTES)
 
 
-def _choose(route: str) -> str:
+def _choose(route: str, reason: str) -> str:
     if route == "portable":
         return route
-    reason = why_not_fast()
     if not reason:
         return "fast"
     if route == "fast":
@@ -327,12 +345,12 @@ def _add_fast(ops: Any, placed: PlacedBearing) -> InProcessElement:
         raise
 
 
-def _add_portable(ops: Any, placed: PlacedBearing) -> Remote:
-    remote = Remote(_SESSION.running_server(), placed)
+def _add_portable(ops: Any, placed: PlacedBearing, *, overridden: bool) -> Remote:
+    remote = Remote(_SESSION.running_server(), placed, ops)
     connection = add_host_element(ops, placed.tag, placed.placement)
     try:
         remote.connect(connection)
-        if not why_not_fast():
+        if overridden:
             remote.override(HostOverrides(placed))
         else:
             restart_reads(restart=True)

@@ -11,7 +11,7 @@ import xarray as xr
 from lir_element._version import package_version
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus, failure_message
-from lir_element.opensees.library import opensees
+from lir_element.opensees.library import commands_of
 from lir_element.opensees.plugin import bearing_at, bearing_tags
 from lir_element.results.dataset import (
     bearing_coordinates,
@@ -34,10 +34,11 @@ class BearingRecording:
     In the gallery: "A bearing in OpenSeesPy" (docs/gallery/opensees/a_bearing.py).
     """
 
-    def __init__(self, tags: tuple[int, ...], every: int) -> None:
+    def __init__(self, tags: tuple[int, ...], every: int, ops: Any) -> None:
         self.tags = tags
+        self._version = ops.version()
         self._every = every
-        self._bearings = [bearing_at(tag) for tag in tags]
+        self._bearings = [bearing_at(tag, ops) for tag in tags]
         self._started = time.perf_counter()
         self._loads = np.array([bearing.response("axial_force") for bearing in self._bearings])
         for bearing in self._bearings:
@@ -128,7 +129,7 @@ class BearingRecording:
             "status": status.name.lower(),
             "message": message,
             "lir_dcfp_version": package_version(),
-            "opensees_version": opensees().version(),
+            "opensees_version": self._version,
             "level": ", ".join(sorted({bearing.placed.level for bearing in self._bearings})),
             "route": ", ".join(sorted({bearing.route for bearing in self._bearings})),
             "record_every": self._every,
@@ -151,7 +152,7 @@ class BearingRecording:
         return RunStatus.OK, "completed"
 
 
-def record_bearings(*tags: int, every: int = 1) -> BearingRecording:
+def record_bearings(*tags: int, every: int = 1, ops: Any = None) -> BearingRecording:
     """Record the committed states of bearings in the current OpenSeesPy model from now on.
 
     Parameters
@@ -161,6 +162,8 @@ def record_bearings(*tags: int, every: int = 1) -> BearingRecording:
         a bearing ends.
     every : int
         Record every so many committed steps.
+    ops : xara.Model, optional
+        As for `bearing_element`.
 
     Returns
     -------
@@ -177,11 +180,12 @@ def record_bearings(*tags: int, every: int = 1) -> BearingRecording:
     In the gallery: "A bearing in OpenSeesPy" (docs/gallery/opensees/a_bearing.py).
     """
     _check_every(every)
-    chosen = tags or bearing_tags()
+    host = commands_of(ops)
+    chosen = tags or bearing_tags(host)
     if not chosen:
         msg = "the current OpenSees model has no bearing: add one by bearing_element"
         raise ValueError(msg)
-    return BearingRecording(chosen, every)
+    return BearingRecording(chosen, every, host)
 
 
 def _check_every(every: object) -> None:

@@ -23,9 +23,10 @@ class Stand:
     MASS = 1e5
     DEVICE = small_bearing(friction=VelocityFriction(0.066, 0.033, 20.0), design_load=LOAD)
 
-    def __init__(self, ops: Any, route: str) -> None:
+    def __init__(self, ops: Any, route: str, host: Any = None) -> None:
         self.ops = ops
         self.route = route
+        self.host = host
 
     def begin(self, ndm: int = 3) -> None:
         """Begin a new model."""
@@ -56,7 +57,8 @@ class Stand:
         self, tag: int, i: int, j: int, bearing: LIRBearing | None = None, **options: Any
     ) -> None:
         """Add a bearing."""
-        taken = bearing_element(tag, i, j, bearing or self.DEVICE, route=self.route, **options)
+        device = bearing or self.DEVICE
+        taken = bearing_element(tag, i, j, device, route=self.route, ops=self.host, **options)
         assert taken == self.route
 
     def build(

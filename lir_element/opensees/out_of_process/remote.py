@@ -17,7 +17,6 @@ from lir_element.child_process import start
 from lir_element.device.friction import without_class
 from lir_element.opensees.block.layout import vector_length
 from lir_element.opensees.connection import own_connections, signals_held
-from lir_element.opensees.library import opensees
 from lir_element.opensees.out_of_process.guard import Guard
 
 if TYPE_CHECKING:
@@ -71,8 +70,9 @@ class Remote:
 
     route = "portable"
 
-    def __init__(self, server: Server, placed: PlacedBearing) -> None:
+    def __init__(self, server: Server, placed: PlacedBearing, ops: Any) -> None:
         self.server = server
+        self._ops = ops
         self._key = server.new_key()
         self._words = vector_length(placed.placement.dofs)
         self._sock: socket.socket | None = None
@@ -137,7 +137,7 @@ class Remote:
         if self.server.alive:
             if self._recording:
                 self.outcome()
-                self._records = self.recorded()
+                self._records = tuple(self.server.ask("recorded", self._key))
             self.server.ask("forget", self._key)
 
     def detach(self) -> None:
@@ -172,7 +172,7 @@ class Remote:
         if self._overrides is not None or self._warned:
             return
         committed, step = self.server.ask("clock", self._key)
-        away = abs(opensees().getTime() - committed)
+        away = abs(self._ops.getTime() - committed)
         if _SAME_CLOCK * step < away < (1.0 - _SAME_CLOCK) * step:
             self._warned = True
             msg = (
