@@ -121,7 +121,7 @@ def test_what_makes_no_sense_is_refused() -> None:
     refused(FragilityError, "levels is empty", multiple_stripes, MODEL, PULSES, [], intensity=PGV)
     refused(FragilityError, "level", multiple_stripes, MODEL, PULSES, [-1.0], intensity=PGV)
     refused(FragilityError, "scale", cloud_analysis, MODEL, PULSES, intensity=PGV, scales=[0.0])
-    with pytest.raises(FragilityError, match="is decided here"):
+    with pytest.raises(FragilityError, match="is set by this analysis"):
         multiple_stripes(MODEL, PULSES, [1.0], intensity=PGV, scales=[1.0])
     other = lumped_mass(BEARING, LOAD / 9.80665, name="other")
     with pytest.raises(FragilityError, match="one at a time"):

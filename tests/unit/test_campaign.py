@@ -152,7 +152,7 @@ def test_parameters_become_those_of_all_bearings() -> None:
     both = {"f_max": 0.09, "friction": 0.05}
     refused(CampaignError, "friction and f_max are given", bearings, both, rubbed)
     refused(CampaignError, "the bearing has Coulomb's friction", bearings, {"f_max": 0.1})
-    words = r'"radios" is no parameter: there are .*radius'
+    words = r'"radios" is no parameter: choose one of .*radius'
     refused(CampaignError, words, bearings, {"radios": 1.0})
 
 
@@ -169,7 +169,7 @@ def test_factors_multiply_what_each_bearing_has() -> None:
     twice = {"friction_factor": 1.2, "f_max": 0.1}
     refused(CampaignError, "friction_factor and f_max are given", with_parameters, frame, twice)
     none = {"flange_factor": 2.0}
-    words = "no flange that it could multiply: give flange"
+    words = "no flange to multiply: set flange"
     refused(CampaignError, words, with_parameters, frame, none)
 
 
@@ -353,7 +353,7 @@ def test_a_mistake_of_the_function_ends_the_campaign(tmp_path: Path) -> None:
         (KeyError, "mass", mistaken, SETS),
         (
             CampaignError,
-            r'no model can be set up; the first: "x" is no param',
+            r'correct the models; the first: "x" is no param',
             structure(),
             full_grid({"x": [1.0]}),
         ),
@@ -382,7 +382,7 @@ def test_histories_are_kept_on_request(tmp_path: Path) -> None:
     part.write_bytes(part.read_bytes()[:5000])
     with pytest.raises(CampaignError, match=r"000000-0.npz is not as it was written .*remove it"):
         campaign.store.histories(7)
-    refused(CampaignError, "no histories of run 99", campaign.store.histories, 99)
+    refused(CampaignError, "run 99 has no histories", campaign.store.histories, 99)
 
 
 @pytest.mark.parametrize(
@@ -462,7 +462,7 @@ def test_a_package_that_is_missing_is_named(tmp_path, monkeypatch):
 
 def test_a_folder_that_holds_something_else_is_left_alone(tmp_path: Path) -> None:
     (tmp_path / "thesis.txt").write_text("mine")
-    refused(CampaignError, "is there and holds no campaign", small(tmp_path).run)
+    refused(CampaignError, "exists and holds no campaign", small(tmp_path).run)
     assert [p.name for p in tmp_path.iterdir()] == ["thesis.txt"]
     refused(CampaignError, "holds no campaign: name the folder", open_campaign, tmp_path)
 
@@ -692,6 +692,6 @@ print(json.dumps([len(table), table["radius"].tolist(), peak.tolist()]))
         assert {"README.md", "all/runs.csv", "all/results.zarr/.zmetadata"} <= {*packed.namelist()}
     assert not (tmp_path / "study_after.zip").exists()
     next((store / "runs").glob("*.npz")).unlink()
-    refused(CampaignError, "run it to its end first", archive_campaign, store, archive)
+    refused(CampaignError, "run the campaign to its end", archive_campaign, store, archive)
     assert archive.read_bytes() == first
     refused(CampaignError, "must end in .zip", archive_campaign, store, tmp_path / "runs.tar")

@@ -83,7 +83,7 @@ def test_a_scheduler_that_is_lost_is_told_and_the_rest_is_run_here(tmp_path, cli
         if progress.done == 4:
             client.cluster.close(timeout=patience())
 
-    with pytest.raises(CampaignError, match="lost: the batches before are kept"):
+    with pytest.raises(CampaignError, match="lost: run again to resume"):
         campaign.run(client=client, progress=lose)
     assert 2 <= campaign.status().done < 16
     campaign.run(workers=1)

@@ -96,7 +96,7 @@ def test_hunted_runs_are_refused_by_other_fits(method: str, tmp_path: object) ->
     table.to_csv(f"{tmp_path}/runs.csv", index=False)
     given.append(IntensityRuns(pd.read_csv(f"{tmp_path}/runs.csv"), SA, {"demand": "1"}))
     for each in given:
-        with pytest.raises(FragilityError, match=r"chosen by the outcome .*method='capacities'"):
+        with pytest.raises(FragilityError, match=r"chosen by outcomes .*method='capacities'"):
             fragility_of(each, LIMIT, method=method)  # type: ignore[arg-type]
 
 

@@ -130,7 +130,7 @@ class CampaignJob:
                         break
                     first = first or str(data["message"].item())
             if not found:
-                msg = f"no model can be set up; the first: {first}"
+                msg = f"no model can be set up: correct the models; the first: {first}"
                 raise CampaignError(msg)
             layout = _untimed(time_histories(found, motion, record=self.read, **brief))
             layout = with_room(layout, self.measures)

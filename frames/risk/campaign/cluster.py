@@ -21,9 +21,7 @@ _AHEAD = 2  # batches at a worker: one computed, one waiting
 _LOSSES = 3  # of a batch's result, before it was fetched
 _GONE = {"cancelled", "lost"}
 
-_LOST = (
-    "the connection to Dask's scheduler is lost: the batches before are kept, run again to go on"
-)
+_LOST = "the connection to Dask's scheduler is lost: run again to resume from the batches done"
 
 _ONE_AT_A_TIME = threading.Lock()  # a worker computes a batch with all of its threads
 
@@ -94,8 +92,8 @@ def _result(future: Any, number: int) -> Batch | None:
         return None
     except KilledWorker as cause:
         msg = (
-            f"batch {number} ended its workers again and again ({cause}): give them more memory, "
-            "or take smaller batches in another folder; the batches before are kept"
+            f"batch {number} ended its workers repeatedly ({cause}): give them more memory, or use "
+            "smaller batches in another folder"
         )
         raise CampaignError(msg) from cause
     return batch

@@ -55,12 +55,8 @@ class ComparedDevices:
         """Return the structure on each device."""
         for name, link in frame.bearings.items():
             if link.bearing.is_dcfp or math.isinf(link.bearing.lateral_capacity):
-                msg = (
-                    f"bearing {name} has "
-                    + ("a rigid slider" if link.bearing.is_dcfp else "no rims")
-                    + ": what is compared with DCFPs is an LIR-DCFP; give interface_friction and "
-                    "capacity"
-                )
+                lacking = "a rigid slider" if link.bearing.is_dcfp else "no rims"
+                msg = f"bearing {name} has {lacking}: set its interface_friction and capacity"
                 raise CampaignError(msg)
         made = {LIR: Device()} | {n: self._device(n, frame) for n in OTHERS if n in self.others}
         found: dict[str, Frame] = {}
@@ -91,7 +87,7 @@ class ComparedDevices:
         if name == SAME_PLAN and not 0.0 < least < own:
             msg = (
                 f"slider_radius = {1e3 * least:g} mm of a DCFP of the same plan must be below the "
-                f"{1e3 * own:g} mm of the LIR-DCFP, whose sliders are larger for the slip"
+                f"{1e3 * own:g} mm of the LIR-DCFP: reduce it"
             )
             raise CampaignError(msg)
         if name == SAME_PLAN:
@@ -100,7 +96,7 @@ class ComparedDevices:
         if self.larger is not None and self.larger <= capacity:
             msg = (
                 f"larger = {1e3 * self.larger:g} mm must be above the capacity of the bearing, "
-                f"{1e3 * capacity:g} mm"
+                f"{1e3 * capacity:g} mm: raise it"
             )
             raise CampaignError(msg)
         return Device(kind="DCFP", capacity=self.larger or math.inf)

@@ -80,7 +80,7 @@ def _device(bearing: LIRBearing, given: Mapping[str, float]) -> LIRBearing:
     if "friction" in parameters:
         changes["friction"] = CoulombFriction(parameters["friction"])
         if law:
-            msg = f"friction and {', '.join(law)} are given: one is Coulomb's, the others are not"
+            msg = f"friction and {', '.join(law)} are given: leave one out"
             raise CampaignError(msg)
     elif law:
         changes["friction"] = _laws(bearing, law)
@@ -115,7 +115,7 @@ def _nominal(bearing: LIRBearing, field: str) -> Any:
     value = getattr(bearing, field)
     value = bearing.resolved().get(field) if value is None else value
     if value is None:
-        msg = f"{field}{FACTOR}: a bearing has no {field} that it could multiply: give {field}"
+        msg = f"{field}{FACTOR}: the bearing has no {field} to multiply: set {field}"
         raise CampaignError(msg)
     return value
 
@@ -138,7 +138,7 @@ def _laws(bearing: LIRBearing, changes: Mapping[str, float]) -> tuple[FrictionLa
             raise CampaignError(msg)
         of_law = [each for each in names_of(kinds[0]) if len(kinds) == 1]
         there = ", ".join(["friction", *FIELDS, *of_law, DAMPING])
-        msg = f'"{name}" is no parameter: there are {there}; friction{FACTOR} and the like'
+        msg = f'"{name}" is no parameter: choose one of {there}, or with a factor, friction{FACTOR}'
         raise CampaignError(msg)
     return tuple(replace(each, **changes) for each in bearing.frictions)  # type: ignore[type-var]
 

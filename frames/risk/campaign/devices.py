@@ -108,13 +108,13 @@ class Device:
         named = "plan", "more_plan", "capacity", "moat"
         sizes = [name for name in named if getattr(self, name) is not None]
         if len(sizes) > 1:
-            msg = f"{' and '.join(sizes)} are given: each makes the way to the rims, leave one"
+            msg = f"{' and '.join(sizes)} are given: each sets the capacity, leave one"
             raise CampaignError(msg)
         if self.slider_radius is not None and (self.wider or self.least_slider_radius):
-            msg = "slider_radius is that of all sliders: leave wider and least_slider_radius out"
+            msg = "slider_radius sets all sliders: leave wider and least_slider_radius out"
             raise CampaignError(msg)
         if self.kind == "DCFP" and self.interface_friction is not None:
-            msg = "interface_friction is that of an LIR-DCFP: leave it out of a DCFP"
+            msg = "interface_friction applies to an LIR-DCFP: leave it out of a DCFP"
             raise CampaignError(msg)
         if self.rims == math.inf and self.rim_overrun is not None:
             msg = "rims that are unbreakable have no rim_overrun: leave it out"
@@ -145,7 +145,7 @@ class Device:
         own = {name: link.bearing for name, link in frame.bearings.items()}
         for name, each in own.items():
             if self.kind == "LIR-DCFP" and each.is_dcfp:
-                msg = f"bearing {name} has a rigid slider: an LIR-DCFP is made of one in two pieces"
+                msg = f"bearing {name} has a rigid slider: set its interface_friction"
                 raise CampaignError(msg)
         if self.pressure is None:
             return own
@@ -174,7 +174,7 @@ class Device:
             }
         shapes = {(each.radii, each.slider_height): each for each in own.values()}
         if len(shapes) > 1 and self.plan is not None:
-            msg = "the bearings differ in radius or height: a plan is of equal ones, give capacity"
+            msg = "plan needs bearings of one radius and height, these differ: set capacity instead"
             raise CampaignError(msg)
         widest, beyond = max(sliders.values()), self._beyond(own, sliders)
         dishes = {shape: self._dishes(each, widest, beyond) for shape, each in shapes.items()}
@@ -195,13 +195,13 @@ class Device:
                 reach = (0.5 * self.plan - widest) * length / max(bottom, top)
             if not reach > 0.0:
                 name = "plan" if self.moat is None else "moat"
-                msg = f"{name} = {given:g} mm leaves no way to the rims: give more than "
+                msg = f"{name} = {given:g} mm leaves no capacity before the rims: give more than "
                 msg += f"{1e3 * (2.0 * widest if self.moat is None else beyond):.0f} mm"
                 raise CampaignError(msg)
             edges = [(reach * radius / length + widest, radius) for radius in (bottom, top)]
             if math.isfinite(reach) and any(edge >= radius for edge, radius in edges):
-                msg = f"a way of {1e3 * reach:.0f} mm to the rims is beyond the dishes, whose "
-                msg += f"radius is {bottom:g} m: give less of it"
+                msg = f"a capacity of {1e3 * reach:.0f} mm is beyond the dishes, whose radius is "
+                msg += f"{bottom:g} m: reduce it"
                 raise CampaignError(msg)
             rise = 0.0 if math.isinf(reach) else sum(r - math.sqrt(r**2 - e**2) for e, r in edges)
             if rise < height:
@@ -245,7 +245,7 @@ def _dish(own: LIRBearing, slider: float) -> dict[str, Any]:
     more = own.slider_radius - slider
     bottom, top = own.rim_displacement
     if min(bottom, top) + more <= 0.0:
-        msg = f"a slider of {1e3 * slider:.0f} mm has no way in its dish: give plan or capacity"
+        msg = f"slider_radius = {1e3 * slider:.0f} mm fills its dish: set plan or capacity"
         raise CampaignError(msg)
     return {"capacity": None, "rims": (bottom + more, top + more)}
 

@@ -152,7 +152,7 @@ def models_in(given: CampaignFile | str | Path) -> dict[str, Frame]:
     asked = file.compare is not None and file.compare.collapse_ductility is not None
     asked = asked or (file.fragility is not None and bool(file.fragility.ductility))
     if asked and not any(frame.hinges for frame in frames.values()):
-        msg = "ductility is that of plastic hinges, and no structure has any: give hinges in "
+        msg = "ductility needs plastic hinges, and no structure has any: set hinges in "
         raise ProjectError(msg + "[structure.columns] or [structure.beams], or leave it out")
     return {
         _of_structure(structure, device): made
@@ -275,13 +275,13 @@ def run_search(
 def _search(file: CampaignFile, frame: Frame, scales: Sequence[float]) -> MedianSearch:
     asked, fragility = file.search, file.fragility
     if asked is None or fragility is None:
-        msg = "this file has no [search]: `lir campaign` runs it"
+        msg = "the file has no [search]: add it, or run the file with `lir campaign`"
         raise CampaignError(msg)
     collapse = [] if file.compare is None else [file.compare.collapse()]
     limits = {limit.name: limit for limit in [*fragility.limits(), *collapse]}
     name = asked.limit or list(limits)[-1]
     if name not in limits:
-        msg = f'limit = "{name}" is none of this file: {", ".join(limits)}'
+        msg = f'limit = "{name}" is no limit state of the file: choose one of {", ".join(limits)}'
         raise CampaignError(msg)
     device: Device = file.devices[asked.device].made()
     bounds = {
@@ -360,7 +360,9 @@ def _sample(file: CampaignFile) -> ParameterSample | None:
         return full_grid(choices)
     if file.sample.kind == "saltelli":
         for name in [n for n in choices if getattr(file.parameters, n).values is not None]:
-            msg = f'{name} has values: the kind "saltelli" needs its distribution, low and high'
+            msg = (
+                f'{name} has values: give low and high, of which the kind "saltelli" makes samples'
+            )
             raise CampaignError(msg)
         return saltelli_sample(choices, size, seed=seed)
     spread: Mapping[str, Choice] = choices

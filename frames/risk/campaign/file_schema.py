@@ -82,7 +82,7 @@ class FragilityTable(MeasureTable):
     @model_validator(mode="after")
     def _something(self) -> Self:
         if not self.limits():
-            msg = "has no limit state: give drift = [0.005], bearing_failure = true or the like"
+            msg = "has no limit state: give one, such as drift = [0.005] or bearing_failure = true"
             raise ValueError(msg)
         return self
 
@@ -200,11 +200,10 @@ class CampaignMotions(MotionSource):
     @model_validator(mode="after")
     def _scales_or_intensities(self) -> Self:
         if self.intensities and "scales" in self.model_fields_set:
-            msg = "has scales and intensities: factors on the motions as they are, or what these "
-            msg += "are scaled to; leave one out"
+            msg = "has scales and intensities, and both scale the motions: leave one out"
             raise ValueError(msg)
         if self.pulses is not None and (self.intensities or "scales" in self.model_fields_set):
-            msg = "has pulses, whose velocities are what they are scaled to: leave "
+            msg = "has pulses, which their velocities scale: leave "
             raise ValueError(msg + f"{'intensities' if self.intensities else 'scales'} out")
         return self
 
@@ -220,7 +219,9 @@ class Sampling(Table):
     def _size_of_its_kind(self) -> Self:
         if (self.kind == "grid") != (self.size is None):
             needs = "has the size of its values: leave size out"
-            msg = f'"{self.kind}" ' + (needs if self.kind == "grid" else "needs a size")
+            msg = f'"{self.kind}" ' + (
+                needs if self.kind == "grid" else "needs a size: give size = 64"
+            )
             raise ValueError(msg)
         return self
 
@@ -244,7 +245,7 @@ class Range(Table, Generic[T]):
         if (self.distribution == "normal") != (self.mean is not None) or (
             (self.mean is None) != (self.deviation is None)
         ):
-            msg = 'mean and deviation go with distribution = "normal", both; low and high cut it'
+            msg = 'distribution = "normal" alone has mean and deviation: give both, or neither'
             raise ValueError(msg)
         return self
 
@@ -281,16 +282,17 @@ class CompareTable(Table):
             raise ValueError(msg)
         for key, device in (("slider_radius", SAME_PLAN), ("larger", LARGER)):
             if getattr(self, key) is not None and device not in self.devices:
-                msg = f'{key} is that of the "{device}", which devices does not name'
+                msg = (
+                    f'{key} applies to the "{device}" alone: name it in devices, or leave {key} out'
+                )
                 raise ValueError(msg)
         if SAME_PLAN in self.devices and self.slider_radius is None:
-            msg = f'"{SAME_PLAN}" needs slider_radius, below that of the LIR-DCFP: its sliders '
-            msg += "need no room for a slip"
+            msg = f'"{SAME_PLAN}" needs slider_radius: give one below that of the LIR-DCFP'
             raise ValueError(msg)
         for key in ("devices", "rims"):
             values = getattr(self, key)
             if len({*values}) < len(values):
-                msg = f"{key} = {list(values)} has one twice"
+                msg = f"{key} = {list(values)} has one twice: name it once"
                 raise ValueError(msg)
         return self
 
@@ -337,8 +339,8 @@ class CampaignFile(WholeFile):
         if self.loss is None:
             return self
         if not self.motions.intensities:
-            msg = '[loss] needs motions.intensities, as ["1 m/s2", "2 m/s2"]: a loss is over what '
-            raise ValueError(msg + "all records are scaled to")
+            msg = "[loss] needs records of common intensities: give motions.intensities, as "
+            raise ValueError(msg + '["1 m/s2", "2 m/s2"]')
         stated = self.loss.model_fields_set & {*MeasureTable.model_fields}
         if self.fragility is not None and stated and self.loss.measured() != self.measured():
             msg = f"loss.{min(stated)}: [fragility] has another measure, leave it out of [loss]"
@@ -348,14 +350,14 @@ class CampaignFile(WholeFile):
     @model_validator(mode="after")
     def _one_structure_or_several(self) -> Self:
         if (self.structure is None) != bool(self.structures):
-            msg = "needs [structure], or several as [structures.<name>]: one of both"
+            msg = "needs [structure], or several as [structures.<name>]: give one of both"
             raise ValueError(msg)
         if self.structures and self.search is not None:
-            msg = "[search] is of one [structure]: leave the others out"
+            msg = "[search] needs one [structure]: leave the others out"
             raise ValueError(msg)
         unknown = sorted(set(self.bearings) - set(self.structures))
         if unknown:
-            msg = f"[bearings.{unknown[0]}] is of a structure that is not there: give "
+            msg = f"[bearings.{unknown[0]}] has no structure: add "
             raise ValueError(msg + f"[structures.{unknown[0]}], or leave it out")
         return self
 
@@ -392,13 +394,13 @@ class CampaignFile(WholeFile):
         if self.search is None:
             return self
         if self.search.device not in self.devices:
-            msg = f'search.device: "{self.search.device}" is no table of [devices]'
+            msg = f'search.device: "{self.search.device}" is no table of [devices]: name one'
             raise ValueError(msg)
         if not self.search.parameters.model_fields_set:
             msg = 'search.parameters: name one, as plan = {low = "600 mm", high = "900 mm"}'
             raise ValueError(msg)
         if self.fragility is None:
-            msg = "[search] needs [fragility]: the measure of intensity, and limit states"
+            msg = "[search] needs a measure and limit states: add [fragility]"
             raise ValueError(msg)
         if self.parameters is not None:
             msg = "[search] has its own parameters: leave [parameters] and [sample] out"
@@ -421,9 +423,7 @@ class CampaignFile(WholeFile):
             msg = f'compare.devices: "{wrong[0]}" is none of {", ".join(known)}'
             raise ValueError(msg)
         if self.devices and len(self.compared()) > MOST_COMPARED:
-            msg = (
-                f"compare.devices are {len(self.compared())}, of at most {MOST_COMPARED}: name some"
-            )
+            msg = f"compare.devices has {len(self.compared())}: name at most {MOST_COMPARED}"
             raise ValueError(msg)
         for key in {"rims", "slider_radius", "larger"} & given if self.devices else ():
             msg = f"compare.{key}: [devices] says it of each device, leave it out"

@@ -83,13 +83,18 @@ class LossComponent:
         )
         sizes = {len(self.medians), len(self.dispersions), len(self.costs)}
         if len(sizes) > 1 or not len(self.medians):
-            msg = f"{where}: medians, dispersions and costs need one number a damage state each"
+            msg = (
+                f"{where}: medians, dispersions and costs differ in length: give one a damage state"
+            )
             raise FragilityError(msg)
         for name in ("medians", "dispersions", "quantity"):
             for value in getattr(self, name):
                 require_positive(f"{where}: {name}", value, error=FragilityError)
         if (np.diff(self.medians) < 0.0).any() or min(self.costs) < 0.0:
-            msg = f"{where}: medians must rise from state to state, and costs be at least 0"
+            msg = (
+                f"{where}: medians = {[*self.medians]} must rise from state to state, and costs = "
+            )
+            msg += f"{[*self.costs]} be at least 0"
             raise FragilityError(msg)
 
     def cost(self, demand: FloatArray | float) -> FloatArray:
@@ -116,7 +121,7 @@ class LossComponent:
         """Return the expected cost of all units in each run of a Dataset, (runs,)."""
         name = "peak_drift" if self.damaged_by == DRIFT else "peak_floor_plan"
         if name not in data:
-            msg = f"component {self.name}: the structure has no storeys with levels; give it levels"
+            msg = f"component {self.name}: the structure has no storeys: give it levels"
             raise FragilityError(msg)
         demand = data[name].to_numpy()
         if self.damaged_by != DRIFT:
@@ -296,7 +301,9 @@ def _intensities(
         own, other = each.intensity, hazard.intensity
         if own.unit != hazard.unit or (other is not None and not is_same(own, other)):
             label = hazard.unit if other is None else other.label
-            msg = f"the runs are over {own.label}, the hazard over {label}: give it of that measure"
+            msg = (
+                f"the runs are over {own.label}, the hazard over {label}: give it over {own.label}"
+            )
             raise FragilityError(msg)
     sets = {
         (name, motion): tuple(sorted({*rows["im"].tolist()}))
@@ -306,8 +313,8 @@ def _intensities(
     if len({*sets.values()}) > 1:
         (_, motion), found = min(sets.items(), key=lambda row: len(row[1]))
         msg = (
-            f"record {motion} was run at {len(found)} intensities, others at others: a loss over "
-            "intensity needs all records at the same ones, as motions.intensities give them"
+            f"record {motion} was run at {len(found)} intensities, others at different ones: run "
+            "all records at the same ones, by motions.intensities"
         )
         raise FragilityError(msg)
     return np.array(next(iter(sets.values())))

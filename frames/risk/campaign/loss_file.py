@@ -76,7 +76,9 @@ def read_components(path: Path) -> tuple[LossComponent, ...]:
 def _component(path: Path, name: str, rows: list[tuple[int, dict[str, str]]]) -> LossComponent:
     for key in ("damaged by", "quantity"):
         if len({cells.get(key) for _, cells in rows}) > 1:
-            msg = f'{path.name}, line {rows[-1][0]}: {name} has another "{key}" than above'
+            msg = (
+                f'{path.name}, line {rows[-1][0]}: {name} has another "{key}" than above: repeat it'
+            )
             raise FragilityError(msg)
     number, first = rows[0]
     by = first.get("damaged by", "")

@@ -85,8 +85,8 @@ def _told(function: FunctionType, module: str, seen: dict[str, Any]) -> dict[str
         source = textwrap.dedent(inspect.getsource(function))
     except (OSError, TypeError) as cause:
         msg = (
-            f"the source of {name} cannot be read, so that it cannot be told whether it is the "
-            "same function when the campaign is resumed: write it in a file"
+            f"the source of {name} cannot be read, and a resumed campaign compares it: write the "
+            "function in a file"
         )
         raise CampaignError(msg) from cause
     used = inspect.getclosurevars(function)
@@ -115,7 +115,7 @@ def _value(key: str, value: Any) -> str:
     try:
         return fingerprint(value)
     except (TypeError, RecursionError) as cause:
-        msg = f"{key} = {value!r} that a measure uses has no digest: take numbers, texts or arrays"
+        msg = f"{key} = {value!r} that a measure uses has no digest: use numbers, texts or arrays"
         raise CampaignError(msg) from cause
 
 
@@ -136,7 +136,7 @@ def with_room(data: xr.Dataset, measures: Mapping[str, Measure]) -> xr.Dataset:
     names = [str(name) for name in data["quantity"].to_numpy()]
     twice = [name for name in measures if name in names]
     if twice:
-        msg = f'the measure "{twice[0]}" has the name of a quantity of frames.peaks: give another'
+        msg = f'the measure "{twice[0]}" has the name of a quantity of frames.peaks: rename it'
         raise CampaignError(msg)
     texts = {str(name): "" for name, own in data.variables.items() if own.dtype.kind != "f"}
     found = data.reindex(quantity=[*names, *measures], fill_value=texts)
@@ -184,8 +184,8 @@ def _evaluated(name: str, measure: Measure, own: xr.Dataset, place: int) -> floa
         raise CampaignError(msg) from cause
     if math.isnan(value):
         msg = (
-            f'the measure "{name}" of {run} is not a number: return one for each run that went to '
-            "its end, math.inf where it has no bound"
+            f'the measure "{name}" of {run} is not a number: return one for each complete run, '
+            "math.inf if it has no bound"
         )
         raise CampaignError(msg)
     return value

@@ -55,7 +55,7 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
     ...     convert_campaign("nowhere", "anew")
     ... except CampaignError as error:
     ...     print(error)
-    nowhere holds no campaign of version 0.2: nothing is to be converted
+    nowhere holds no campaign of version 0.2: name the folder of one
     """
     if lacking := lacking_packages("zarr"):
         raise ImportError(lacking)
@@ -66,7 +66,7 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
     except (OSError, ValueError, LookupError, TypeError):
         is_old = False
     if not is_old:
-        msg = f"{old} holds no campaign of version 0.2: nothing is to be converted"
+        msg = f"{old} holds no campaign of version 0.2: name the folder of one"
         raise CampaignError(msg)
     whole = xr.open_zarr(folder / "runs.zarr", chunks=None, consolidated=False)
     results = whole[whole.attrs["results"]].drop_attrs(deep=False)
@@ -80,7 +80,7 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
         found = _loaded(results.isel(run=own).drop_vars(of_run))
         arrays = {str(name): variable.to_numpy() for name, variable in found.data_vars.items()}
         if digest_of([arrays]) != told["digest"]:
-            msg = f"batch {number} of {old} is not as it was written: remove {mark}, and convert"
+            msg = f"batch {number} of {old} is not as it was written: remove {mark}, convert again"
             raise CampaignError(msg)
         now = with_present_names(found).data_vars.items()
         arrays = {str(name): variable.to_numpy() for name, variable in now}
@@ -121,19 +121,18 @@ def known_runs(
         unlike = differences(*({key: plan.get(key) for key in _SAME} for plan in (stored, planned)))
         if unlike:
             msg = (
-                f"reuse = {path}: its runs were computed otherwise: leave it out, or plan this "
-                f"campaign alike\n{listed(unlike)}"
+                f"reuse = {path}: its runs were computed otherwise: leave it out, or give this "
+                f"campaign the same plan\n{listed(unlike)}"
             )
             raise CampaignError(msg)
         if planned["record"] != _HISTORIES:
-            msg = f"reuse = {path}: histories are not taken over: leave out record or reuse"
+            msg = f"reuse = {path}: histories cannot be reused: leave out record or reuse"
             raise CampaignError(msg)
         own = {digest: (data, row) for digest, row in rows_by_digest(data).items()}
         if not any(digest in own for digest in work.digests(range(work.plan.runs))):
             msg = (
                 f"reuse = {path}: no run is the same (its models: {', '.join(stored['models'])}): "
-                "name of the model, structure with its parameters, motion and scale have to be "
-                "those of a run of this campaign"
+                "use its names of models, structures, parameters, motions and scales"
             )
             raise CampaignError(msg)
         found = own | found

@@ -122,7 +122,7 @@ def planned_rows(plan: Plan, layout: xr.Dataset) -> xr.Dataset:
     names = () if plan.sample is None else plan.sample.names
     taken = {*names} & {*map(str, layout.variables), *_ROWS, "done", "motion_digest", OUTCOME}
     if taken:
-        msg = f'the parameter "{min(taken)}" has the name of a result or column: give it another'
+        msg = f'the parameter "{min(taken)}" has the name of a result or column: rename it'
         raise CampaignError(msg)
     model, chosen, motion, scale = plan.places()
     found: dict[str, Any] = {

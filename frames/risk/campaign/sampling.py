@@ -75,7 +75,7 @@ class ParameterSample:
             raise CampaignError(msg)
         for name in self.names:
             if not name.isidentifier() or self.names.count(name) > 1:
-                msg = f'sample: "{name}" must be a name of letters, digits and _, there once'
+                msg = f'sample: "{name}" must be a name of letters, digits and _, once: rename it'
                 raise CampaignError(msg)
         values.flags.writeable = False
         object.__setattr__(self, "values", values)

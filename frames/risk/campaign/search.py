@@ -116,7 +116,7 @@ class MedianSearch:
                 msg = f"{name}: low = {low:g} must be below high = {high:g}"
                 raise CampaignError(msg)
         if self.points <= len(self.bounds):
-            msg = f"points = {self.points} must exceed the {len(self.bounds)} numbers searched"
+            msg = f"points = {self.points} must exceed the {len(self.bounds)} of bounds: raise it"
             raise CampaignError(msg)
 
     def run(
@@ -181,7 +181,7 @@ class MedianSearch:
         found = pd.DataFrame(rows)
         column = f"median [{self.intensity.unit}]"
         if not found[column].notna().any():
-            msg = "no point has a median: all analyses failed, or none had a known outcome"
+            msg = "no point has a median, no run has a known outcome: see the messages of its runs"
             raise CampaignError(msg)
         found["best"] = found.index == found[column].idxmax()
         return found

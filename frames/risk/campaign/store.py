@@ -237,8 +237,8 @@ class CampaignStore:
                 if run in data["run"].to_numpy():
                     return data.sel(run=run)
         msg = (
-            f"no histories of run {run}: it is not done, its model could not be built (see its "
-            "message), or the campaign keeps none (record=Recording() does)"
+            f"run {run} has no histories: it is not done or could not be built (see its message), "
+            "or the campaign needs record=Recording()"
         )
         raise CampaignError(msg)
 
@@ -257,7 +257,7 @@ class CampaignStore:
         """
         plan, chunks = self.plan(), self._chunks()
         if len(chunks) * plan["batch"] < plan["runs"]:
-            msg = f"{self.path}: {self.status()}: run it to its end first"
+            msg = f"{self.path}: {self.status()}: run the campaign to its end"
             raise CampaignError(msg)
         return digest_of(map(self._read, chunks.values()))
 

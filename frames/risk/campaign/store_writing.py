@@ -82,7 +82,7 @@ class StoreWriter(CampaignStore):
     def create(self, described: Mapping[str, Any], rows: xr.Dataset, layout: xr.Dataset) -> None:
         """Make the results database, in one move: there is a whole one, or none."""
         if self.path.exists():
-            msg = f"{self.path} is there and holds no campaign: name another folder"
+            msg = f"{self.path} exists and holds no campaign: name another folder"
             raise CampaignError(msg)
         beside = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
         of_run = [name for name in layout.coords if "run" in layout[name].dims]
@@ -110,15 +110,14 @@ class StoreWriter(CampaignStore):
         found, sources = unlike(stored, given)
         if found:
             msg = (
-                f"{self.path} was planned otherwise: name another store, or give what it was "
-                f"planned with\n{listed(found)}"
+                f"{self.path} was planned otherwise: name another store, or give the plan that it "
+                f"has\n{listed(found)}"
             )
             raise CampaignError(msg)
         if sources and not accept_other_sources:
             msg = (
-                f"{self.path} was computed by other sources of the package: its runs and new ones "
-                "might not belong together. Name another store; or, if the change does not touch "
-                "the numbers, run(accept_other_sources=True), which the results database keeps\n"
+                f"{self.path} was computed by other sources of the package: name another store. If "
+                "the change leaves all numbers equal, call run(accept_other_sources=True)\n"
                 f"{listed(sources)}"
             )
             raise CampaignError(msg)

@@ -104,11 +104,11 @@ def _run_at(
     """Run a structure under scaled motions, all at once."""
     fixed = {"scales", "cases", "record"} & set(options)
     if fixed:
-        msg = f"{sorted(fixed)[0]} is decided here: leave it out"
+        msg = f"{sorted(fixed)[0]} is set by this analysis: leave it out"
         raise FragilityError(msg)
     structures = named_models(model)
     if len(structures) > 1:
-        msg = f"{len(structures)} structures: run one at a time, their curves can be compared"
+        msg = f"{len(structures)} structures: give one, compare_fragility compares their curves"
         raise FragilityError(msg)
     ((name, structure),) = structures.items()
     wanted = [(name, motion, factor) for motion, factor in cases]
@@ -143,7 +143,7 @@ def _checked(
         raise FragilityError(msg)
     stray = [name for name in known.motions if name not in motions]
     if stray:
-        msg = f"known has runs of {stray[0]!r}, which is not among the motions: give it, too"
+        msg = f"known has runs of {stray[0]!r}, which is not among the motions: add it"
         raise FragilityError(msg)
     return known
 

@@ -92,7 +92,7 @@ def fit_cloud(
     x, y = np.log(at), np.log(np.where(fell, 1.0, found))
     line = _line(x[~fell], y[~fell], np.ones(int((~fell).sum())))
     if line is None:
-        msg = f"{(~fell).sum()} runs without collapse determine no rising line: run more"
+        msg = f"{(~fell).sum()} runs without collapse determine no rising line: run more motions"
         raise FragilityError(msg)
     common: dict[str, Any] = {
         "name": name,

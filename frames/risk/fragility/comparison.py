@@ -155,8 +155,8 @@ def compare_fragility(
     )
     if not same or not first.records:
         msg = (
-            "the curves are not of the same records, seed and resamples: fit both to runs under "
-            "the same motions with one seed"
+            "the curves differ in records, seed or resamples: fit both to runs of the same motions "
+            "with one seed"
         )
         raise FragilityError(msg)
     rates, resampled = None, None

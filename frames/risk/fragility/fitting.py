@@ -252,12 +252,12 @@ def fit_capacities(
     chosen = method or ("likelihood" if open_.any() else "moments")
     require_choice("method", chosen, ("moments", "likelihood"), error=FragilityError)
     if chosen == "moments" and open_.any():
-        msg = f"{open_.sum()} capacities are censored: take method='likelihood', or run them higher"
+        msg = f"{open_.sum()} capacities are censored: use method='likelihood', or run higher"
         raise FragilityError(msg)
     order = np.argsort(np.array(records, dtype=str), kind="stable")  # as the resamples go
     at, open_ = at[order], open_[order]
     if (~open_).sum() < 3 or not np.ptp(at[~open_]) > 0.0:
-        msg = f"{(~open_).sum()} capacities, of which not all are equal: 3 at least are needed"
+        msg = f"{(~open_).sum()} capacities were reached: give at least 3 that are not all equal"
         raise FragilityError(msg)
     logs = np.log(at)
 

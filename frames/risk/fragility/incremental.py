@@ -198,7 +198,7 @@ def capacities_of(runs: IntensityRuns, limit: LimitState) -> pd.DataFrame:
         order = np.argsort(im, kind="stable")
         known = order[~np.isnan(over[order])]
         if not len(known):
-            msg = f"{motion}: no run succeeded, its capacity is not known: leave it out"
+            msg = f"{motion}: no run succeeded, so its capacity is unknown: leave it out"
             raise FragilityError(msg)
         values = None if limit.quantity is None else own.demand(limit.quantity)[known]
         found = _first_crossing(im[known], over[known] > 0.5, values, limit.limit)

@@ -21,10 +21,7 @@ def _package() -> Any:
     try:
         import pyFragility
     except ImportError as cause:
-        msg = (
-            "likelihoods of fragility come with a package of their own: "
-            "pip install 'lir-dcfp[fragility]'"
-        )
+        msg = "this fit needs the package pyFragility: pip install 'lir-dcfp[fragility]'"
         raise ImportError(msg) from cause
     return pyFragility
 

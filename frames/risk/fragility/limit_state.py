@@ -88,7 +88,7 @@ class LimitState:
         """
         holds = bearing.slip_stability
         if not 0.0 < holds < math.inf:
-            msg = f"s* = {holds:g} m of this bearing is no limit: take bearing_failure()"
+            msg = f"s* = {holds:g} m of this bearing is no limit: use bearing_failure()"
             raise FragilityError(msg)
         return LimitState("interface slip beyond s*", QUANTITIES["slip"].title, holds)
 

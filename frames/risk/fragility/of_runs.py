@@ -81,7 +81,7 @@ def fragility_of(
     }
     if chosen == "capacities":
         if HUNT not in plans:
-            msg = "capacities are of an IDA: run frames.ida, or take method='stripes'"
+            msg = "capacities are of an IDA: run frames.risk.ida, or use method='stripes'"
             raise FragilityError(msg)
         found = capacities_of(each, limit)
         at, censored = found["capacity"].to_numpy(), found["censored"].to_numpy()
@@ -91,7 +91,7 @@ def fragility_of(
     if chosen == "stripes":
         return fit_stripes(im, each.exceeded(limit), records, **common)
     if limit.quantity is None or limit.limit is None:
-        msg = f"{limit.name} has no demand to regress: take method='stripes'"
+        msg = f"{limit.name} has no demand to regress: use method='stripes'"
         raise FragilityError(msg)
     return fit_cloud(im, each.demand(limit.quantity), limit.limit, records, **common)
 
@@ -101,11 +101,8 @@ def _require_beforehand(plans: list[str], method: str) -> None:
     hunted = plans.count(HUNT)
     if hunted:
         msg = (
-            f"method = {method!r}: the intensities of {hunted} of {len(plans)} runs were chosen by "
-            "the outcome of the runs before (hunt and fill): motions that exceed the limit early "
-            "have no runs above it, which biases such a curve (of a known truth, stripes gave a "
-            "median 20 to 30 % too high and up to twice the dispersion). Take "
-            "method='capacities', or run frames.multiple_stripes"
+            f"method = {method!r} would be biased: intensities of {hunted} of {len(plans)} runs "
+            "were chosen by outcomes (hunt and fill). Use method='capacities', or multiple_stripes"
         )
         raise FragilityError(msg)
 

@@ -48,8 +48,8 @@ def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset
         raise FragilityError(msg)
     if not done.all():
         warnings.warn(
-            f"{(~done).sum()} of {len(done)} runs are not done and left out: what is made of the "
-            "others changes with them. Run the campaign to its end",
+            f"results will change: {(~done).sum()} of {len(done)} runs are not done and left out. "
+            "Run the campaign to its end",
             AnalysisWarning,
             stacklevel=4,
         )
@@ -72,10 +72,9 @@ def _of_sets(own: Runs, parameters: Sets) -> Runs:
     sets = sorted({*map(int, own.of("parameter_set"))})
     if parameters is None and len(sets) > 1:
         msg = (
-            f"{len(sets)} sets of parameters ({', '.join(names)}): choose one by its number, "
-            f"parameters={sets[0]}, or by values, parameters={{{names[0]!r}: "
-            f"{own.of(names[0])[0]:g}}}; parameters='all' pools them, and the "
-            "dispersion of the curve then holds that of the parameters"
+            f"{len(sets)} sets of parameters ({', '.join(names)}): choose parameters={sets[0]}, or "
+            f"parameters={{{names[0]!r}: {own.of(names[0])[0]:g}}}; parameters='all' pools them "
+            "and adds their scatter to the dispersion"
         )
         raise FragilityError(msg)
     if parameters is None or parameters == ALL_SETS:
@@ -113,8 +112,7 @@ def motions_of(own: xr.Dataset, motions: object) -> dict[str, GroundMotion]:
         if unlike:
             msg = (
                 f"{len(unlike)} of {len(used)} motions are not those that were run, such as "
-                f"{unlike[0]!r}: other samples or another step under the same name, as of a motion "
-                "before it was scaled or given a tail. Give the motions that the runs were given"
+                f"{unlike[0]!r}: give the motions as they were run, with their scale and tail"
             )
             raise FragilityError(msg)
     return {name: grounds[name] for name in used}

@@ -82,8 +82,8 @@ def _values(own: xr.Dataset, quantity: Quantity, at_most: float | None) -> Float
     failed = outcome == FAILURE
     if at_most is None and failed.any():
         msg = (
-            f"a bearing failed in {failed.sum()} of {len(failed)} runs, whose {quantity} is "
-            "infinite: give at_most=, the value that they and larger ones count as"
+            f"{quantity} is infinite in {failed.sum()} of {len(failed)} runs, whose bearings "
+            "failed: give at_most=, the value that they and larger ones count as"
         )
         raise FragilityError(msg)
     most = math.inf if at_most is None else at_most

@@ -193,9 +193,9 @@ def mean_annual_frequency(curve: Estimate, hazard: HazardCurve) -> Risk:
     beyond = max(float(probability[0] * rates[0]), float(probability[-1] * rates[-1]))
     if beyond > MISSING * rate:
         warnings.warn(
-            f"{curve.name or 'the limit state'}: intensities beyond the ends of the hazard curve, "
-            f"{low:g} to {high:g} {hazard.unit}, contribute to the rate {rate:.3g} 1/year: give "
-            "the curve for more intensities",
+            f"{curve.name or 'the limit state'}: the rate {rate:.3g} 1/year may be too low: "
+            f"intensities beyond the ends of the hazard curve, {low:g} to {high:g} {hazard.unit}, "
+            "contribute: give more of the curve",
             RiskWarning,
             stacklevel=2,
         )

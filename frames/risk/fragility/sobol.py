@@ -282,14 +282,13 @@ def _require_enough(table: FloatArray, known: BoolArray) -> None:
     least, samples = min(FEWEST, known.shape[1]), known.shape[1]
     if counts.min() < least:
         msg = (
-            f"{counts.min()} of {samples} samples of record {int(counts.argmin())} are known: a "
-            f"sample needs all of its {len(table)} sets. Give {least} at least: distributions "
-            "whose models can be built, or more samples"
+            f"{counts.min()} of {samples} samples of record {int(counts.argmin())} are known, at "
+            f"least {least} must be: take more samples, or distributions whose models can be built"
         )
         raise FragilityError(msg)
     values = table[:, known]
     if not np.ptp(values) > 0.0:
-        msg = f"all {values.size} results are {values.flat[0]:g}: nothing depends on the parameters"
+        msg = f"all {values.size} results are {values.flat[0]:g}: vary parameters that matter"
         raise FragilityError(msg)
 
 
@@ -309,10 +308,9 @@ def _warn_of_width(found: list[_Ends], widest: float, samples: int) -> None:
     enough = 2 ** math.ceil(math.log2(2.0 * samples * (width / widest) ** 2))
     more = " If records are few, take more records, too" if len(found) > 1 else ""
     warnings.warn(
-        f"the {('first', 'total')[kind]} index of {ends.names[k]} is {ends.values[kind, k]:.2f} "
-        f"({ends.low[kind, k]:.2f} to {ends.high[kind, k]:.2f}): an interval of {width:.2f}, above "
-        f"{widest:g}, is no result. Take samples={enough}, of a campaign in saltelli_sample, too."
-        + more,
+        f"the {('first', 'total')[kind]} index of {ends.names[k]} is no result: its interval of "
+        f"{width:.2f} ({ends.low[kind, k]:.2f} to {ends.high[kind, k]:.2f}) exceeds {widest:g}. "
+        f"Take samples={enough}, also in saltelli_sample." + more,
         RiskWarning,
         stacklevel=3,
     )
