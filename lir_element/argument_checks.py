@@ -72,13 +72,13 @@ def unreal(values: object) -> str:
     Examples
     --------
     >>> unreal([1.0, 2.0]), unreal(np.array([1.0, 2.0j]))
-    ('', 'holds complex numbers: give real ones, as values.real')
+    ('', 'has complex numbers: pass the real part, values.real')
     """
     if np.ma.isMaskedArray(values) and np.ma.getmaskarray(values).any():
         count = int(np.ma.getmaskarray(values).sum())
-        return f"has {count} masked values: fill them in, as values.filled(0.0), or leave them out"
+        return f"has {count} masked values: replace them (values.filled(0.0)), or remove them"
     if np.iscomplexobj(cast("ArrayLike", values)):
-        return "holds complex numbers: give real ones, as values.real"
+        return "has complex numbers: pass the real part, values.real"
     return ""
 
 

@@ -235,7 +235,7 @@ class Element:
     def response(self, name: str) -> Any:
         """Return a response of the trial state by name (see `responses`)."""
         if name not in STATE_BY_NAME:
-            msg = f"response {name!r} is not known: choose one of {', '.join(STATE_BY_NAME)}"
+            msg = f"response {name!r} does not exist: choose one of {', '.join(STATE_BY_NAME)}"
             raise KeyError(msg)
         value = np.array(self._trial[name][0])
         return value if value.ndim else value[()]
@@ -260,7 +260,7 @@ def limit_detail(props: Records, state: Records, index: int) -> str:
         way = float(props["flange"][index])
         if way > 0.0:
             beyond = state["eccentricity"][index] - props["rim_displacement"][index]
-            return f"slid {float(beyond.max()):.4g} m beyond a broken rim, flange {way:.4g} m"
+            return f"slid {float(beyond.max()):.4g} m beyond a failed rim, flange {way:.4g} m"
         closure = float((state["rim_closure"] + state["rim_bent"])[index].max())
         limit = float(props["rim_overrun"][index])
         return f"rim deformation {closure:.4g} m, rim_overrun {limit:.4g} m"

@@ -87,17 +87,16 @@ _TEXT = {
         "use rims (capacity) or larger radii; check the motion's scale",
     ),
     RunStatus.SLIP_UNSTABLE: (
-        "the slider snapped back from the rim, its interface slipping away: the slip passed what "
-        "friction holds, L mu_h + mu_1 R_1 + mu_2 R_2: the bearing failed",
+        "the slip exceeded the snap-back limit L mu_h + mu_1 R_1 + mu_2 R_2: the bearing failed",
         "use a higher mu_h, or more lateral capacity",
     ),
     RunStatus.UPLIFT_EXCEEDED: (
-        "the bearing opened further than its parts hold together: the bearing failed",
-        "add weight over the bearing or a device that takes tension, or raise uplift_capacity",
+        "the uplift exceeded uplift_capacity: the bearing failed",
+        "add load on the bearing, add a device that resists tension, or raise uplift_capacity",
     ),
     RunStatus.NEWTON_FAILED: (
         "Newton's method did not converge",
-        "use a smaller dt; check for a mechanism or a load beyond what the model can carry",
+        "use a smaller dt; check for a mechanism or a load above the strength of the model",
     ),
     RunStatus.STEP_TOO_SMALL: (
         "adaptive substepping reached the smallest step without convergence",
@@ -113,18 +112,18 @@ _TEXT = {
         "add weight over the bearing, or leave the bearing out",
     ),
     RunStatus.NO_REST: (
-        "no equilibrium was found under the permanent loads, nor a way to it with softer friction",
+        "no equilibrium was found under the permanent loads (also tried with softer friction)",
         "check the units of masses and loads, and axial_stiffness against the load of the bearing; "
         "use a larger yield_displacement, stiffer members, or supports against a mechanism",
     ),
-    RunStatus.INTERRUPTED: ("interrupted by Ctrl-C", "run it again, or use what was computed"),
+    RunStatus.INTERRUPTED: ("interrupted by Ctrl-C", "run it again, or use the results so far"),
     RunStatus.INACCURATE: (
         "completed, but the results are doubtful",
         "use dt=None or a smaller dt; check the step with half of it",
     ),
     RunStatus.BEARING_LOST: (
-        "a bearing failed, and the run went on without it to its end",
-        "look at what carries in its place (bearing_force, backup), or make the bearing larger",
+        "a bearing failed, and the run continued without it to the end",
+        "check the backup support (bearing_force), or use a larger bearing",
     ),
 }
 
@@ -200,8 +199,8 @@ class AnalysisInterrupted(KeyboardInterrupt):
     def __str__(self) -> str:
         """Return the time of the stop, and the place of the results."""
         return (
-            f"interrupted at t = {self.time:.6g} s of the analysis: what was computed is in the "
-            "attribute `data` of this AnalysisInterrupted"
+            f"interrupted at t = {self.time:.6g} s of the analysis: the results so far are "
+            "in the attribute `data` of this AnalysisInterrupted"
         )
 
 

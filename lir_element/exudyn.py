@@ -114,12 +114,12 @@ class ExudynBearing:
 
     def _check(self, system: Any) -> None:
         if len(set(map(str, self._nodes))) < len(self._nodes):
-            msg = f"upper and lower are both node {self._nodes[0]}: give the nodes of two bodies"
+            msg = f"upper and lower are both node {self._nodes[0]}: pass the nodes of two bodies"
             raise ValueError(msg)
         for node in self._nodes:
             given = system.GetNode(node)
             if _NODE not in given["nodeType"]:
-                msg = f"node {node} is a {given['nodeType']}: give a NodeRigidBodyRotVecLG"
+                msg = f"node {node} is a {given['nodeType']}: use a NodeRigidBodyRotVecLG"
                 raise ValueError(msg)
             if np.any(np.array(given["referenceCoordinates"])[3:]):
                 msg = f"node {node} is turned in its reference state: turn it by initialCoordinates"

@@ -111,7 +111,10 @@ def write_bearing(
     """
     if level == "contact" and bearing.contact_points is not None:
         count = bearing.contact_points
-        msg = f"contact_points = {count}: the C interface has discs alone, use contact_points=None"
+        msg = (
+            f"contact_points = {count}: the C interface supports discs only, use "
+            "contact_points=None"
+        )
         raise ValueError(msg)
     memory = _Memory(Element(bearing, level, features=features))
     Path(path).write_bytes(b"".join(array.tobytes() for array in memory.arrays))
@@ -281,10 +284,13 @@ def write_library(folder: str | Path) -> Path:
     """
     command = shlex.split(os.environ.get("CC", "cc"))
     if shutil.which(command[0]) is None:
-        msg = f"no C compiler {command[0]!r} is found: install gcc, or set CC to yours"
+        msg = (
+            f"the C compiler {command[0]!r} was not found: install gcc, or set CC to the "
+            "path of another"
+        )
         raise RuntimeError(msg)
     if not WITH_PARTS or numba.config.DISABLE_JIT:
-        msg = f"numba {numba.__version__} compiles no library: pip install 'numba==0.68.*'"
+        msg = f"numba {numba.__version__} cannot compile the library: pip install 'numba==0.68.*'"
         msg += ", and unset NUMBA_DISABLE_JIT"
         raise RuntimeError(msg)
     place = Path(folder)

@@ -44,5 +44,5 @@ def meant(value: float, unit: str, low: float, high: float) -> str:
 def per_cent(value: object) -> str:
     """Return the probable meaning of a coefficient of friction above one."""
     if isinstance(value, (int, float)) and 1.0 <= value < 100.0:
-        return f"give a pure number ({value:g} per cent are {0.01 * value:g})"
-    return "give a pure number, 0.06 for six per cent"
+        return f"give a pure number ({value:g} % is {0.01 * value:g})"
+    return "give a pure number, 0.06 for 6 %"

@@ -208,8 +208,8 @@ def _doubt(about: os.stat_result, folder: Path) -> str:
 def _distrust(folder: Path, why: str) -> None:
     place = cache_folder() if folder.parent == cache_folder() else folder
     _warn(
-        f"in {folder} are not opened, for files there {why}. If you made them, run "
-        f"`chmod -R go-w {place}`, otherwise remove them",
+        f"in {folder} were not opened, because files there {why}. If you made them, run "
+        f"`chmod -R go-w {place}`; otherwise remove them",
         again=True,
     )
 
@@ -220,10 +220,10 @@ def _warn(what: str, again: bool) -> None:
     if kind in _said:
         return
     _said.add(kind)
-    cost = ", so that every start compiles them again" if again else ""
+    cost = ", so every start compiles them again" if again else ""
     warnings.warn(
-        f"compiled kernels {what}{cost}. Set LIR_CACHE_DIR to a folder that can be written and has "
-        "some 200 MB free.",
+        f"compiled kernels {what}{cost}. Set LIR_CACHE_DIR to a writable folder with "
+        "about 200 MB free.",
         RuntimeWarning,
         stacklevel=2,
     )

@@ -102,7 +102,7 @@ def _ours(dispatcher: Any) -> bool:
 
 def _where() -> str:
     folder = cache_folder()
-    return f"they are kept in {folder}" if folder else "there is no home to keep them in"
+    return f"they are kept in {folder}" if folder else "they are not kept: no home folder"
 
 
 event.register("numba:compile", Progress(_ours, _where))

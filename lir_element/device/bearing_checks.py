@@ -64,8 +64,8 @@ def check_bearing(bearing: Specification) -> None:
         warnings.warn(doubt, DesignWarning, stacklevel=4)
 
 
-AT_RIGID_BODY = 'level = "rigid_body" does not know', 'level="contact"'
-TO_OPENSEES = "the mapping to elements of OpenSees does not know", "bearing_element"
+AT_RIGID_BODY = 'level = "rigid_body" does not support', 'level="contact"'
+TO_OPENSEES = "the mapping to elements of OpenSees does not support", "bearing_element"
 """Words of `require_constant_friction`."""
 
 
@@ -95,7 +95,7 @@ def require_no_backup(bearing: Specification, words: tuple[str, str]) -> None:
 def _unknown(name: str, none: str, words: tuple[str, str]) -> str:
     # Program or law without the property, its alternative, and the bearing without the property.
     return (
-        f"{words[0]} {name}: take {words[1]}, or a bearing without, "
+        f"{words[0]} {name}: use {words[1]}, or a bearing without it, "
         f"dataclasses.replace(bearing, {name}={none})"
     )
 
@@ -105,9 +105,9 @@ def _check_kinds(bearing: Specification) -> None:
     for law in pair:
         if not isinstance(law, FrictionLaw):
             msg = (
-                f"friction = {law!r}: give a number as 0.05, CoulombFriction(mu) or "
-                "VelocityFriction(f_max, f_min, rate), a FrictionLaw of your own, or a pair "
-                "(bottom, top) of them"
+                f"friction = {law!r} is not a friction law: pass a number (0.05), "
+                "CoulombFriction(mu), VelocityFriction(f_max, f_min, rate), your own "
+                "FrictionLaw, or a pair (bottom, top) of these"
             )
             raise TypeError(msg)
         law.kernel_values()  # refuses values that kernels cannot use
@@ -119,7 +119,7 @@ def _check_kinds(bearing: Specification) -> None:
         if (value := getattr(bearing, name)) is not None:
             require_type(name, value, kind, f"a {kind.__name__}, such as {example}")
     for name in ("torsional_friction", "allow_weak_interface"):
-        require_type(name, getattr(bearing, name), bool, "one of the two: choose True or False")
+        require_type(name, getattr(bearing, name), bool, "True or False")
     require_choice("friction_law", bearing.friction_law, ("elastic-plastic", "bouc-wen"))
 
 
@@ -127,9 +127,9 @@ def _of_friction(bearing: Specification) -> Iterator[str]:
     mu_h, largest = bearing.interface_friction, max(law.f_max for law in bearing.frictions)
     if mu_h <= largest and not bearing.allow_weak_interface:
         yield (
-            f"interface_friction = {mu_h:g} must exceed the friction of the concave surfaces "
-            f"at all speeds, {largest:g} (design rule mu_h > mu_d): raise it, or pass "
-            "allow_weak_interface=True to study such a bearing"
+            f"interface_friction = {mu_h:g} must exceed {largest:g}, the highest friction of "
+            "the concave surfaces (design rule mu_h > mu_d): raise it, or set "
+            "allow_weak_interface=True"
         )
 
 
@@ -137,8 +137,9 @@ def _early_slip(bearing: Specification) -> Iterator[str]:
     mu_h, least = bearing.interface_friction, bearing.effective_friction
     if mu_h <= least and not bearing.allow_weak_interface:
         yield (
-            f"interface_friction = {mu_h:g} exceeds mu_d but not (mu_1 R_1 + mu_2 R_2) / L = "
-            f"{least:.4g}: the interface slips before the slider meets a rim"
+            f"interface_friction = {mu_h:g} does not exceed (mu_1 R_1 + mu_2 R_2) / L = "
+            f"{least:.4g}: the interface slips before rim contact. Raise it unless this is "
+            "intended"
         )
 
 
@@ -209,10 +210,9 @@ def _of_rims(bearing: Specification) -> Iterator[str]:
     rise = sum(r - math.sqrt(r * r - edge * edge) for r in bearing.radii)
     if bearing.slider_height <= rise:
         yield (
-            f"slider_height = {bearing.slider_height:g} m: the plates overlap at rest, their "
-            f"concave surfaces rise by {rise:.4g} m together at the edge ({edge:.4g} m from the "
-            "middle, where a slider at the rim ends): use a higher slider, larger radii, or less "
-            "capacity"
+            f"slider_height = {bearing.slider_height:g} m is not above {rise:.4g} m, the "
+            f"rise of both concave surfaces {edge:.4g} m from the axis (slider edge at rim "
+            "contact): increase slider_height or radius, or reduce capacity"
         )
 
 
@@ -222,8 +222,8 @@ def _of_sliders(bearing: Specification) -> Iterator[str]:
         pairs = inertia if isinstance(inertia, tuple) else ()
         if [len(pair) if isinstance(pair, tuple) else 0 for pair in pairs] != [2, 2]:
             yield (
-                f"slider_inertia = {inertia!r}: give two pairs (across, along) [kg m2], those of "
-                "the bottom and of the top slider"
+                f"slider_inertia = {inertia!r} must be two pairs (across, along) [kg m2]: pass "
+                "one for the bottom and one for the top slider"
             )
     given: object = bearing.contact_points
     if given is None:
@@ -233,9 +233,9 @@ def _of_sliders(bearing: Specification) -> Iterator[str]:
     fits = 4 <= count <= 7 or (8 <= count <= 64 and count % 2 == 0)
     if not (fits or (count >= 96 and count % 32 == 0)):
         yield (
-            f"contact_points = {given!r}: leave it out (discs, in closed form), or give 4 to 7 "
-            "(one ring on the slider's edge), an even number from 8 to 64 (two rings) or a "
-            "multiple of 32 from 96 on (rings of 32)"
+            f"contact_points = {given!r} is not supported: leave it out (discs in closed "
+            "form), or use 4 to 7, an even number from 8 to 64, or a multiple of 32 from 96 "
+            "on"
         )
 
 
@@ -245,8 +245,8 @@ def _of_forces(bearing: Specification) -> Iterator[str]:
     pressure, usual = load / area if area > 0.0 else math.inf, USUAL_PRESSURE[1] * area
     if pressure > LARGEST_PRESSURE:
         yield (
-            f"design_load = {load:g} N presses {1e-6 * pressure:.3g} MPa on the slider, more than "
-            f"any material carries: give at most some {usual:.2g} N, or check slider_radius = "
-            f"{bearing.slider_radius:g} m"
+            f"design_load = {load:g} N gives a slider pressure of {1e-6 * pressure:.3g} MPa, "
+            f"above the strength of any material: use at most {usual:.2g} N, or check "
+            f"slider_radius = {bearing.slider_radius:g} m"
         )
     yield from shortening(bearing, LARGEST_SHORTENING, ", more than the slider's height")

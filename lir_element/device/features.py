@@ -141,7 +141,7 @@ class Features:
     def _switched(self, names: tuple[str, ...], *, on: bool) -> Features:
         unknown = [name for name in names if name not in self.names()]
         if unknown:
-            msg = f"feature {unknown[0]!r} is not known: choose of {', '.join(self.names())}"
+            msg = f"feature {unknown[0]!r} does not exist: choose from {', '.join(self.names())}"
             raise ValueError(msg)
         return replace(self, **dict.fromkeys(names, on))
 
@@ -175,7 +175,7 @@ def apply(features: Features, props: Records, static_load: ArrayLike | None = No
             raise ValueError(msg)
         if out["goes_on"].any():
             msg = (
-                "vertical_coupling = False does not go with a bearing that has a backup: keep "
+                "vertical_coupling = False does not support a bearing with a backup: keep "
                 "vertical_coupling=True, or set backup=None"
             )
             raise ValueError(msg)

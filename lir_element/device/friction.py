@@ -152,7 +152,7 @@ class FrictionLaw(abc.ABC):
         try:
             hash(self)
         except TypeError as cause:
-            msg = f"{name}: {cause}; give its fields numbers, texts or tuples"
+            msg = f"{name}: {cause}; use numbers, strings or tuples as its fields"
             raise TypeError(msg) from cause
         values = _sampled(self)
         for limit, speed, found in (
@@ -255,7 +255,7 @@ class VelocityFriction(FrictionLaw):
         if self.f_min > self.f_max:
             msg = (
                 f"f_min = {self.f_min:g} exceeds f_max = {self.f_max:g}: the friction at zero "
-                "speed must not exceed that at high speed; exchange the two values"
+                "speed must not exceed that at high speed; swap the values"
             )
             raise ValueError(msg)
 
@@ -310,8 +310,9 @@ class MeasuredFriction(FrictionLaw):
             object.__setattr__(self, name, tuple(given))
         if not len(self.speeds) == len(self.coefficients) > 0:
             msg = (
-                f"MeasuredFriction: {len(self.speeds)} speeds and {len(self.coefficients)} "
-                "coefficients: give one of each for every test, one test at least"
+                f"MeasuredFriction has {len(self.speeds)} speeds and {len(self.coefficients)} "
+                "coefficients: pass one speed and one coefficient for each test, and at least "
+                "one test"
             )
             raise ValueError(msg)
         check_numbers(self)

@@ -94,9 +94,9 @@ def sampled(name: str, law: Law, largest: float = LARGEST_ERROR) -> FrictionValu
             best, error, worst = table, found, at
     if error > largest * most:
         msg = (
-            f"{name} changes too abruptly at {worst:.3g} m/s: its table is off by {error:.2g} "
-            f"there, more than {largest:g} of f_max = {most:.4g}; give a law without jumps "
-            "and kinks, as by scipy.interpolate.PchipInterpolator in place of straight lines"
+            f"{name} changes too abruptly at {worst:.3g} m/s: its table is off by "
+            f"{error:.2g} there, more than {largest:g} of f_max = {most:.4g}: use a law "
+            "without jumps and kinks, for example scipy.interpolate.PchipInterpolator"
         )
         raise ValueError(msg)
     return FrictionValues(most, drop, _steepest(best), best, error)
@@ -126,9 +126,9 @@ def _coefficient(name: str, law: Law, speed: float) -> float:
         value = float(law(float(speed)))
     except ArithmeticError as cause:
         msg = (
-            f"{name} fails at {speed:.3g} m/s ({type(cause).__name__}: {cause}): friction must be "
-            f"known at every speed up to {FASTEST:g} m/s; write it without terms that grow without "
-            "end, exp(-v) for exp(v)"
+            f"{name} fails at {speed:.3g} m/s ({type(cause).__name__}: {cause}): friction "
+            f"must be finite at every speed up to {FASTEST:g} m/s; avoid terms that overflow "
+            "(use exp(-v), not exp(v))"
         )
         raise ValueError(msg) from cause
     if not isfinite(value):
@@ -136,8 +136,8 @@ def _coefficient(name: str, law: Law, speed: float) -> float:
         raise ValueError(msg)
     if not 0.0 <= value < 1.0:
         msg = (
-            f"{name} is {value:.6g} at {speed:.3g} m/s: a friction coefficient must be at least 0 "
-            "and below 1; give pure numbers, 0.06 for six per cent"
+            f"{name} is {value:.6g} at {speed:.3g} m/s: a friction coefficient must be at "
+            "least 0 and below 1; give pure numbers, 0.06 for 6 %"
         )
         raise ValueError(msg)
     return value
@@ -157,15 +157,16 @@ def _checked(name: str, law: Law) -> Floats:
         while end < len(falls) and falls[end]:
             end += 1
         msg = (
-            f"{name} falls with speed, from {whole[k]:.6g} at {at[k]:.3g} m/s to {whole[end]:.6g} "
-            f"at {at[end]:.3g} m/s: friction must not decrease with speed: model the decrease "
-            "by heating with FrictionHeating"
+            f"{name} falls with speed, from {whole[k]:.6g} at {at[k]:.3g} m/s to "
+            f"{whole[end]:.6g} at {at[end]:.3g} m/s: friction must not decrease with speed; "
+            "model the decrease by heating with FrictionHeating"
         )
         raise ValueError(msg)
     if ends[1] - ends[0] > _AT_LIMIT * ends[1]:
         msg = (
-            f"{name} has no limit at high speed: it is {ends[0]:.6g} at {_NEARLY_FASTEST:g} m/s "
-            f"and {ends[1]:.6g} at {FASTEST:g} m/s; let it level off beyond the speeds of its tests"
+            f"{name} has no limit at high speed: it is {ends[0]:.6g} at {_NEARLY_FASTEST:g} "
+            f"m/s and {ends[1]:.6g} at {FASTEST:g} m/s; make it constant beyond the tested "
+            "speeds"
         )
         raise ValueError(msg)
     return values

@@ -78,7 +78,7 @@ class PressureDependence:
         """Return k_p [-] at `pressure`; `reference` [Pa] is used if the bearing's is not set."""
         p_0 = self.reference_pressure if self.reference_pressure is not None else reference
         if p_0 is None:
-            msg = "reference_pressure is open: give it, or `reference`, the design pressure [Pa]"
+            msg = "reference_pressure is not set: set it, or `reference`, the design pressure [Pa]"
             raise ValueError(msg)
         return math.exp(-self.rate * (pressure - p_0))
 

@@ -58,15 +58,15 @@ def ring_strength(
     require_positive("yield_stress", yield_stress, "Pa")
     arm = 0.5 * height if lever is None else require_positive("lever", lever, "m")
     if arm > height:
-        msg = f"lever = {arm:g} m is above the ring, height = {height:g} m: it ends there"
+        msg = f"lever = {arm:g} m must not exceed the ring's height = {height:g} m: reduce it"
         raise ValueError(msg)
     bending = yield_stress * arc * (thickness * thickness) / 4.0 / arm
     shear = yield_stress * arc * thickness / math.sqrt(3.0)
     if not 0.0 < min(bending, shear) <= max(bending, shear) < math.inf:
         msg = (
-            f"thickness = {thickness:g} m, arc = {arc:g} m, lever = {arm:g} m and yield_stress = "
-            f"{yield_stress:g} Pa make no force that a number holds: give lengths in m, the stress "
-            "in Pa"
+            f"thickness = {thickness:g} m, arc = {arc:g} m, lever = {arm:g} m and "
+            f"yield_stress = {yield_stress:g} Pa give no finite force above 0: check the "
+            "units (m, Pa)"
         )
         raise ValueError(msg)
     return float(brentq(lambda p: p / bending + (p / shear) ** 4 - 1.0, 0.0, min(bending, shear)))

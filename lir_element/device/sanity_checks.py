@@ -157,8 +157,8 @@ def _of_friction(bearing: Specification) -> Iterator[str]:
     for law in dict.fromkeys(bearing.frictions):
         if law.f_max > LARGEST_FRICTION:
             yield worded(
-                "friction of {f_max:g} is far above that of sliding materials, 0.01 to 0.2: give a "
-                "pure number, 0.06 for six per cent",
+                "friction of {f_max:g} is far above that of sliding materials, 0.01 to 0.2: "
+                "give a pure number, 0.06 for 6 %",
                 f_max=law.f_max,
             )
         rate = law.kernel_values().rate
@@ -188,8 +188,8 @@ def _of_rims(bearing: Specification) -> Iterator[str]:
     for name, bound in (("slip_capacity", 300.0 * edge), ("rim_overrun", 50.0 * edge)):
         if options[name] > bound:
             yield worded(
-                "{name} = {value:g} m, for a slider of radius {edge:g} m: {hint} if that is not "
-                "meant",
+                "{name} = {value:g} m is large for a slider of radius {edge:g} m: {hint} if "
+                "that is not meant",
                 name=name,
                 value=options[name],
                 edge=edge,
@@ -200,8 +200,8 @@ def _of_rims(bearing: Specification) -> Iterator[str]:
     if strength < 0.02 * options["design_load"] and math.isfinite(bearing.lateral_capacity):
         least = 0.1 * options["design_load"] / options["rim_overrun"]
         yield worded(
-            "rim_stiffness = {stiffness:g} N/m and rim_overrun = {overrun:g} m: the rim gives way "
-            "at {strength:.3g} N, the design load is {load:.3g} N: {hint}",
+            "rim_stiffness = {stiffness:g} N/m and rim_overrun = {overrun:g} m: the rim "
+            "fails at {strength:.3g} N, far below the design load of {load:.3g} N: {hint}",
             stiffness=options["rim_stiffness"],
             overrun=options["rim_overrun"],
             strength=strength,
@@ -217,16 +217,16 @@ def _of_rim_yield(bearing: Specification) -> Iterator[str]:
     load, elastic = options["design_load"], force / options["rim_stiffness"]
     if not 0.02 * load <= force <= 100.0 * load:
         yield worded(
-            "rim_yield_force = {force:g} N, the design load is {load:.3g} N: {hint}",
+            "rim_yield_force = {force:g} N does not suit a design load of {load:.3g} N: {hint}",
             force=force,
             load=load,
             hint=meant(force, "N", 0.02 * load, 100.0 * load),
         )
     if elastic >= options["rim_overrun"]:
         yield worded(
-            "rim_yield_force = {force:g} N is reached at {elastic:.3g} m, rim_overrun = "
-            "{overrun:g} m: the rim fails before it yields; raise rim_overrun to the deformation "
-            "at which it breaks, or leave rim_yield_force out",
+            "the rim fails before it yields: rim_yield_force = {force:g} N is reached at "
+            "{elastic:.3g} m, rim_overrun = {overrun:g} m. Raise rim_overrun, or leave "
+            "rim_yield_force out",
             force=force,
             elastic=elastic,
             overrun=options["rim_overrun"],
@@ -240,9 +240,9 @@ def _of_slip(bearing: Specification) -> Iterator[str]:
         return
     needed = (overlap / bearing.effective_radius) + bearing.effective_friction
     yield worded(
-        "interface_friction = {mu:g} holds a slip of at most {holds:.3g} mm without rim contact "
-        "(slip_stability), less than the overlap of {overlap:.3g} mm: raise it to {needed:.3g}, or "
-        "count on {holds:.3g} mm",
+        "interface_friction = {mu:g} keeps the interface stable without rim contact up "
+        "to {holds:.3g} mm of slip, below the overlap of {overlap:.3g} mm: raise it to "
+        "{needed:.3g}, or limit the slip to {holds:.3g} mm",
         mu=bearing.interface_friction,
         holds=1e3 * holds,
         overlap=1e3 * overlap,

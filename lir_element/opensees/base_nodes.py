@@ -26,17 +26,17 @@ def bearings_by_node(
     repeated = [tag for tag in bases if bases.count(tag) > 1]
     if not bases or repeated:
         what = f"lists node {repeated[0]} more than once" if repeated else "is empty"
-        msg = f"base_nodes {what}: give the tag of each node on a bearing once"
+        msg = f"base_nodes {what}: list each node on a bearing once"
         raise error(msg)
     given = bearing if isinstance(bearing, Mapping) else dict.fromkeys(bases, bearing)
     apart = sorted(set(bases) ^ {int(tag) for tag in given})
     if apart:
-        where = "base_nodes but not in bearing" if apart[0] in bases else "bearing but no base node"
+        where = "base_nodes but not in bearing" if apart[0] in bases else "bearing only"
         msg = f"node {apart[0]} is in {where}: give one bearing for each base node"
         raise error(msg)
     for tag in bases:
         if not isinstance(given[tag], LIRBearing):
-            msg = f"the bearing of node {tag} is {given[tag]!r}: describe it by a LIRBearing"
+            msg = f"the bearing of node {tag} is {given[tag]!r}: pass a LIRBearing"
             raise TypeError(msg)
     return {tag: given[tag] for tag in bases}
 
@@ -55,8 +55,8 @@ def check_base(ops: Any, bases: list[int], metre: float) -> None:
         shape = len(ops.nodeCoord(tag)), len(ops.nodeDisp(tag))
         if shape != (3, 6):
             msg = (
-                f"node {tag} has {shape[0]} coordinates and {shape[1]} degrees of freedom: isolate "
-                "needs 3 and 6; in the plane put the bearings by bearing_element, one by one"
+                f"node {tag} has {shape[0]} coordinates and {shape[1]} degrees of freedom: "
+                "isolate needs 3 and 6; for a plane model use bearing_element"
             )
             raise ValueError(msg)
         moved = metre * max(abs(value) for value in ops.nodeDisp(tag)[:3])
@@ -112,9 +112,8 @@ def check_ties(ops: Any, bases: list[int], groups: list[list[int]]) -> None:
             raise ValueError(msg)
         if any(tag in group for group in groups):
             msg = (
-                f"base node {tag} follows node {leaders[0]} by a multi-point constraint: pass "
-                "base_diaphragm=False and keep the model's own, or remove that one by "
-                f"ops.remove('mp', {tag})"
+                f"a multi-point constraint ties base node {tag} to node {leaders[0]}: pass "
+                f"base_diaphragm=False, or remove the constraint by ops.remove('mp', {tag})"
             )
             raise ValueError(msg)
 
@@ -135,15 +134,15 @@ def doubts(ops: Any, bases: list[int], up: int) -> list[str]:
             beside.append(int(element))
     if beside:
         notes.append(
-            f"elements {listed(beside)} join base nodes to supports beside their bearings: what "
-            "resists the rise of a pendulum draws load to itself; remove what stood for the old "
-            f"isolators or foundations, ops.remove('element', {beside[0]}) and so on"
+            f"elements {listed(beside)} join base nodes to supports beside the bearings and "
+            "carry part of their load: remove the elements of the former isolators or "
+            f"foundations, ops.remove('element', {beside[0]}) and so on"
         )
     every = sum(max(ops.nodeMass(tag)[:3]) for tag in ops.getNodeTags())
     if sum(max(ops.nodeMass(tag)[:3]) for tag in bases) <= _NO_MASS * every:
         notes.append(
-            "the base nodes have no mass: friction acts on nothing that has inertia, and steps "
-            "have to be small; give them that of the slab above the bearings, ops.mass(tag, ...)"
+            "the base nodes have no mass, so the analysis needs small steps: add the mass "
+            "of the slab above the bearings, ops.mass(tag, ...)"
         )
     return notes
 

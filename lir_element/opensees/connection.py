@@ -65,8 +65,8 @@ def own_connections() -> list[Any]:
         import psutil
     except ImportError as cause:
         msg = (
-            "psutil is not installed, which finds the bearing's connection to OpenSees: "
-            'pip install "lir-dcfp[opensees]"'
+            "psutil is not installed, but the connection to OpenSees needs it: pip install "
+            '"lir-dcfp[opensees]"'
         )
         raise ImportError(msg) from cause
     return [each for each in psutil.Process(os.getpid()).net_connections("tcp4") if each.raddr]

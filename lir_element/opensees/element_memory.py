@@ -115,7 +115,7 @@ class ElementMemory:
             return self._host_response(*self._responses[name])
         if name not in STATE_BY_NAME:
             known = ", ".join(sorted({*STATE_BY_NAME, *self._responses, "route"}))
-            msg = f"response {name!r} is not known: choose one of {known}"
+            msg = f"response {name!r} does not exist: choose one of {known}"
             raise KeyError(msg)
         value = np.array(self._old[name][0])
         return value if value.ndim else value[()]
@@ -149,7 +149,7 @@ class ElementMemory:
         """
         if self.block["record_every"][0] < 0:
             who = f"bearing element {self.placed.tag}"
-            msg = f"{who}: no memory for more states, record fewer (every=)"
+            msg = f"{who}: there is no memory for more states: record fewer (every=)"
             raise MemoryError(msg)
         count = int(self.block["record_count"][0])
         if count == 0:

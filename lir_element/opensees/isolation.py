@@ -122,7 +122,7 @@ class Isolation:
         ]
         if self.tied:
             lines.append(f"{len(self.tied)} rigid diaphragm(s) over the base nodes")
-        system = "an unsymmetric system, as system('UmfPack')"
+        system = "an unsymmetric system, for example system('UmfPack')"
         if self.tangent == "symmetric":
             system = "any system, as system('BandSPD')"
         lines.append(f"find equilibrium next; constraints('Transformation') and {system}")

@@ -96,17 +96,17 @@ def place(
     axes = bearing_axes(orient, ndm)
     if orient is None and ndm == 3 and _stands_on_y(ops, int(i)):
         msg = (
-            f"the bearing between nodes {i} and {j} points along z, but the supports lie in one "
-            "plane y = const. with the model above it: give orient=(0, 1, 0) if y is "
-            "vertical, orient=(0, 0, 1) if z is"
+            f"the bearing between nodes {i} and {j} points along z, but all supports lie in "
+            "one plane y = const. below the model: pass orient=(0, 1, 0) if y is vertical, "
+            "orient=(0, 0, 1) if z is"
         )
         warnings.warn(msg, PlacementWarning, stacklevel=3)
     rise = metre * (points[1] - points[0])
     _check_rise(i, j, rise, axes, bearing.height)
     if np.linalg.norm(rise) <= SAME_PLACE and _hangs(ops, i, j, ndm):
         msg = (
-            f"node {j}, the upper one, is held by a support and node {i}, the lower one, is not: "
-            f"if the bearing is supported at node {j}, give i={j} and j={i}"
+            f"node {j}, the upper one, is supported and node {i}, the lower one, is not: if "
+            f"the support is below, swap them, i={j} and j={i}"
         )
         warnings.warn(msg, PlacementWarning, stacklevel=3)
     matrix = np.zeros((12, 12))
@@ -187,7 +187,7 @@ def _two_tags(i: int, j: int) -> tuple[int, int]:
             msg = f"node {name} = {tag!r} must be an integer tag"
             raise TypeError(msg)
     if i == j:
-        msg = f"the bearing starts and ends at node {i}: give two different nodes"
+        msg = f"the bearing starts and ends at node {i}: pass two different nodes"
         raise ValueError(msg)
     return int(i), int(j)
 
@@ -215,28 +215,28 @@ def _check_rise(i: int, j: int, rise: Floats, axes: Floats, height: float) -> No
     thousandth = 1e-3 * apart
     if abs(thousandth - height) <= SAME_PLACE and apart > SAME_PLACE:
         msg = (
-            f"nodes {i} and {j} are {apart:g} m apart, a thousand times the bearing's height of "
-            f"{height:g} m: if the model is in mm, give length_unit=0.001 (and force_unit=1e3 if "
-            "it is in kN)"
+            f"nodes {i} and {j} are {apart:g} m apart, 1,000 times the bearing's height of "
+            f"{height:g} m: if the model is in mm, pass length_unit=0.001 (and "
+            "force_unit=1e3 for kN)"
         )
         raise ValueError(msg)
     if abs(z + height) <= SAME_PLACE and max(abs(x), abs(y)) <= SAME_PLACE:
         msg = (
-            f"node {j} is {-z:g} m below node {i}, the bearing's height: the nodes are swapped, "
-            f"give i={j} and j={i} (i is the node below)"
+            f"node {j} is {-z:g} m below node {i}, the bearing's height: swap the nodes, "
+            f"i={j} and j={i} (i is the lower one)"
         )
         raise ValueError(msg)
     if max(abs(x), abs(y)) > SAME_PLACE:
         msg = (
-            f"node {j} lies {np.hypot(x, y):g} m beside the bearing's axis through node {i}, at "
-            f"most {SAME_PLACE:g} m is allowed: move it, or give the axis by orient=(x, y, z), "
-            "(0, 1, 0) if y points upwards"
+            f"node {j} is {np.hypot(x, y):g} m off the bearing's axis through node {i} (at "
+            f"most {SAME_PLACE:g} m): move it, or set the axis by orient, (0, 1, 0) if y is "
+            "vertical"
         )
         raise ValueError(msg)
     if min(abs(z), abs(z - height)) > SAME_PLACE:
         msg = (
             f"node {j} is {z:g} m above node {i}, it must be 0 m or the bearing's height "
-            f"{height:g} m (slider and plates) within {SAME_PLACE:g} m: move it, or give the "
-            "bearing another plate_thickness"
+            f"{height:g} m (slider and plates, within {SAME_PLACE:g} m): move it, or change "
+            "plate_thickness of the bearing"
         )
         raise ValueError(msg)

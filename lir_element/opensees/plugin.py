@@ -322,13 +322,13 @@ def _choose(route: str, reason: str) -> str:
     if not reason:
         return "fast"
     if route == "fast":
-        msg = f'the in-process coupling is not possible: {reason}; take route="portable"'
+        msg = f'the in-process coupling is not possible: {reason}; use route="portable"'
         raise NotPossibleError(msg)
     if not _SESSION.told:
         _SESSION.told = True
         msg = (
-            "out-of-process coupling is used, several times as slow with the same results, as the "
-            f"fast one is not possible: {reason}"
+            "the out-of-process coupling is used (same results, several times slower), "
+            f"because the in-process one is not possible: {reason}"
         )
         warnings.warn(msg, RouteWarning, stacklevel=3)
     return "portable"

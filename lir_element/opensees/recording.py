@@ -46,10 +46,7 @@ class BearingRecording:
 
     def __reduce__(self) -> NoReturn:
         """Refuse to be copied or pickled: the states are with this process's model."""
-        msg = (
-            "a BearingRecording belongs to the OpenSees model of this process: copy or save its "
-            "dataset()"
-        )
+        msg = "a BearingRecording cannot be copied or pickled: copy or save its dataset()"
         raise TypeError(msg)
 
     def dataset(self) -> xr.Dataset:
@@ -77,7 +74,10 @@ class BearingRecording:
         parts = [bearing.recorded() for bearing in self._bearings]
         count = min(len(part[0]) for part in parts)
         if count == 0:
-            msg = f"bearings {self.tags} have no committed step since the recording began: analyze"
+            msg = (
+                f"bearings {self.tags} have no committed step since the recording began: call "
+                "ops.analyze first"
+            )
             raise ValueError(msg)
         times = parts[0][0][:count]
         velocity = np.stack([part[1][:count] for part in parts], axis=1)

@@ -190,7 +190,10 @@ def _loads(axial_load: float | ArrayLike, displacement: ArrayLike) -> Floats:
     count = len(np.asarray(displacement))
     loads = np.asarray(axial_load, dtype=np.float64)
     if loads.ndim > 1 or (loads.ndim == 1 and len(loads) != count):
-        msg = f"axial_load has shape {loads.shape}: give one number or ({count},), one a point"
+        msg = (
+            f"axial_load has shape {loads.shape}: pass one number, or one for each point, "
+            f"({count},)"
+        )
         raise ValueError(msg)
     loads = np.ascontiguousarray(np.broadcast_to(loads, (count,)))
     if not (np.isfinite(loads).all() and (loads > 0.0).all()):

@@ -112,9 +112,9 @@ def test_nodes_that_do_not_serve_are_refused(exudyn):
     good, turned = scene.body(0.0, 1.0)[0], scene.body(0.0, 1.0, turn=0.1)[0]
     point = scene.system.AddNode(scene.items.NodePoint(referenceCoordinates=[0, 0, 0]))
     for upper, lower, words in (
-        (point, None, "give a NodeRigidBodyRotVecLG"),
+        (point, None, "use a NodeRigidBodyRotVecLG"),
         (turned, None, "turned in its reference state"),
-        (good, good, "give the nodes of two bodies"),
+        (good, good, "pass the nodes of two bodies"),
     ):
         below = lower if lower is None else (lower, place)
         with pytest.raises(ValueError, match=words):

@@ -152,8 +152,8 @@ def test_friction_at_two_speeds(ops: Any, kind: str, frequency: float) -> None:
         ("TFP", plain(capacity=0.2), "choose TripleFrictionPendulum"),
         ("TFP", plain(friction=VelocityFriction(0.06, 0.03, 20.0)), "constant friction"),
         ("TripleFrictionPendulum", plain(friction=VelocityFriction(0.06, 0.03, 20.0)), "Coulomb"),
-        ("FPBearingPTV", plain(friction=VelocityFriction(0.06, 0.02, 20.0)), "one half built in"),
-        ("singleFPBearing", plain(friction=CoulombFriction(0.0)), "unless it is positive"),
+        ("FPBearingPTV", plain(friction=VelocityFriction(0.06, 0.02, 20.0)), "always uses 0.5"),
+        ("singleFPBearing", plain(friction=CoulombFriction(0.0)), "need a positive one"),
         ("singleFPBearing", plain(friction_law="bouc-wen"), "elastic-plastic"),
         ("singleFPBearing", plain(yield_displacement=0.02), "reduce yield_displacement"),
         (
@@ -204,7 +204,7 @@ def test_model_of_the_wrong_size_is_refused() -> None:
 
 def test_millimetres_and_tags_of_numpy(ops: Any) -> None:
     ops.node(3, 0.0, 0.0, 1e3 * plain().height)
-    with pytest.raises(ValueError, match="units than m and N use bearing_el"):
+    with pytest.raises(ValueError, match="units other than m and N use bearing_el"):
         builtin_element("singleFPBearing", 1, 1, 3, plain())
     numbers = np.arange(8)
     builtin_element("singleFPBearing", numbers[5], numbers[1], numbers[2], plain())

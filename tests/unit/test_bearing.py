@@ -172,7 +172,7 @@ def test_bounds_of_friction_laws(name: str) -> None:
         refusals.refused(ValueError, words, LAWS[name], value)
     for value in ("0.1", None, True):
         refusals.refused(TypeError, f"{name} = {value!r} is not a number", LAWS[name], value)
-    words = r"f_min = 0\.07 exceeds f_max = 0\.06.*exchange"
+    words = r"f_min = 0\.07 exceeds f_max = 0\.06.*swap"
     refusals.refused(ValueError, words, VelocityFriction, 0.06, 0.07, 1.0)
     assert VelocityFriction(0.06, 0.06, 1.0).at_speed(0.3) == 0.06
 
@@ -207,7 +207,7 @@ def test_plates_that_overlap_at_rest(rims: tuple[float, float] | None) -> None:
     radii, edge = (0.75, 1.1), 0.08 + (0.09 if rims else 0.0)
     rise = sum(r - math.sqrt(r**2 - edge**2) for r in radii)
     options = {"radius": radii, "rims": rims, "capacity": None if rims else math.inf}
-    words = ("plates overlap at rest", "less capacity") if rims else ("slimmer slider", "0.08 m")
+    words = ("rise of both concave", "reduce capacity") if rims else ("slimmer slider", "0.08 m")
     low = {"slider_height": rise * 0.9999}
     refused(ValueError, "slider_height", f"{rise:.4g} m", *words, **low, **options)
     made = bearing(slider_height=rise * 1.0001, **options)
@@ -268,7 +268,7 @@ def test_warning_where_less_slip_holds_than_overlaps(mu_h: float, warns: bool) -
         assert warning.category is DesignWarning
         needed = (0.08 + 0.066 * 1.5) / 1.415
         for words in (
-            f"a slip of at most {1e3 * holds:.3g} mm",
+            f"up to {1e3 * holds:.3g} mm of slip",
             "overlap of 80 mm",
             f"to {needed:.3g}, or",
         ):

@@ -302,7 +302,7 @@ def test_a_limit_on_files_ends_nothing(tmp_path: Path) -> None:
     done = run(limit + KERNEL, LIR_CACHE_DIR=str(tmp_path), **whole)
     assert done.stdout.startswith("0.84147")
     assert "File too large" in done.stderr
-    assert done.stderr.count("Set LIR_CACHE_DIR to a folder") == 1
+    assert done.stderr.count("Set LIR_CACHE_DIR to a writable") == 1
     assert not [p for p in tmp_path.rglob("*") if p.is_file()]
 
 

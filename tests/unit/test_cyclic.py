@@ -392,7 +392,7 @@ MASKED = np.ma.masked_less([1e5, -1.0, 1e5], 0.0)
         ("displacement", np.zeros((3, 3)), r" has shape \(3, 3\)"),
         ("displacement", np.zeros((3, 1)), r" has shape \(3, 1\)"),
         ("displacement", np.zeros((2, 2, 2)), r" has shape \(2, 2, 2\)"),
-        ("displacement", np.array([0.0, 1.0j]), " holds complex"),
+        ("displacement", np.array([0.0, 1.0j]), " has complex"),
         ("displacement", [0.0, math.nan], r"\[1\].*not finite"),
         ("displacement", [[0.0, 0.0], [0.0, math.inf]], r"\[1\]"),
         ("axial_load", MASKED, " has 1 masked values"),

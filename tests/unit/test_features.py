@@ -50,7 +50,7 @@ def test_only_bools_are_taken(value):
 
 
 def test_unknown_names_are_refused():
-    with pytest.raises(ValueError, match=r"'heating' is not known: choose of rims, interface"):
+    with pytest.raises(ValueError, match=r"'heating' does not exist: choose from rims, interface"):
         Features().without("heating")
 
 

@@ -80,7 +80,7 @@ def test_pressure_factor():
     law = PressureDependence(reference_pressure=20e6)
     assert_allclose([law.factor(70e6), law.factor(10e6)], [0.7, 1.0739], rtol=1e-4)
     assert_allclose(PressureDependence().factor(70e6, reference=20e6), 0.7, rtol=1e-12)
-    refused(ValueError, "reference_pressure is open", lambda: PressureDependence().factor(70e6))
+    refused(ValueError, "reference_pressure is not set", lambda: PressureDependence().factor(70e6))
 
 
 @pytest.mark.parametrize(
@@ -326,7 +326,7 @@ def test_copies_and_restarts_keep_their_own_heat():
 @pytest.mark.parametrize("name", BOTH)
 def test_the_level_rigid_body_refuses_them(name: str):
     bearing, level = device(**{name: BOTH[name]}), "rigid_body"
-    words = rf'"rigid_body" does not know {name}: take level="co'
+    words = rf'"rigid_body" does not support {name}: use level="co'
     refused(ValueError, words, cyclic_test, bearing, [0.0, 0.1], LOAD, level=level)
     frame = lumped_mass(bearing, 1e4)
     refused(ValueError, words, time_history, frame, motion(), level=level)

@@ -47,7 +47,7 @@ def ops() -> Iterator[Any]:
 CALLS: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"i": 77}, ValueError, "node 77 is not in the current OpenSees model: add it"),
     ({"j": 77}, ValueError, "node 77 is not in the current OpenSees model: add it"),
-    ({"j": 1}, ValueError, "starts and ends at node 1: give two different nodes"),
+    ({"j": 1}, ValueError, "starts and ends at node 1: pass two different nodes"),
     ({"i": "a"}, TypeError, "node i = 'a' must be an integer tag"),
     ({"j": True}, TypeError, "node j = True must be an integer tag"),
     ({"tag": 50}, ValueError, "element 50 is in the model already: choose another tag"),
@@ -55,7 +55,7 @@ CALLS: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"tag": 2**31}, ValueError, "tag = 2147483648 exceeds .* choose one up to 2147483647"),
     ({"j": 4}, ValueError, r"node 4 is 0\.2 m above node 1, it must be 0 m or .*0\.085 m.*move it"),
     ({"j": 6}, ValueError, r"node 6 is 0\.085 m below node 1"),
-    ({"j": 5}, ValueError, r"node 5 lies 0\.01 m beside the bearing's axis.*0\.001 m.*orient="),
+    ({"j": 5}, ValueError, r"node 5 is 0\.01 m off the bearing's axis.*0\.001 m.*by orient"),
     ({"level": "rigid_body"}, ValueError, r"level = 'rigid_body': choose one of \('pendulum'"),
     ({"tangent": "secant"}, ValueError, r"tangent = 'secant': choose one of \('consistent'"),
     ({"route": "quick"}, ValueError, r"route = 'quick': choose one of \('auto'"),
@@ -66,7 +66,7 @@ CALLS: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"orient": (0, 0, 0)}, ValueError, "its axis has no length"),
     ({"orient": (0, 0, 1, 0, 0, 0)}, ValueError, "its x direction is parallel to it"),
     ({"orient": (0, 0, 1, 0, 0, 3)}, ValueError, "its x direction is parallel to it"),
-    ({"j": 3, "orient": (0, 1, 0)}, ValueError, r"node 3 lies 0\.085 m beside"),
+    ({"j": 3, "orient": (0, 1, 0)}, ValueError, r"node 3 is 0\.085 m off"),
     ({"length_unit": 0.0}, ValueError, "length_unit = 0"),
     ({"length_unit": "mm"}, TypeError, "length_unit = 'mm'"),
     ({"force_unit": -1000.0}, ValueError, "force_unit = -1000"),
@@ -154,7 +154,7 @@ def four_supports(ops: Any, vertical: int) -> None:
 
 def test_a_model_that_stands_on_y_is_asked_for_its_axis(ops: Any) -> None:
     four_supports(ops, vertical=1)
-    with pytest.warns(PlacementWarning, match=r"points along z, but .* give orient=\(0, 1, 0\)"):
+    with pytest.warns(PlacementWarning, match=r"points along z, but .* pass orient=\(0, 1, 0\)"):
         bearing_element(1, 1, 11, DEVICE, route="portable")
     with warnings.catch_warnings():
         warnings.simplefilter("error", PlacementWarning)

@@ -85,7 +85,7 @@ def test_a_failed_self_test_leads_to_the_portable_route(door, monkeypatch, code,
     with pytest.warns(RouteWarning, match=f"its self-test failed .*{reason}"):
         assert bearing_element(1, 1, 2, DEVICE) == "portable"
     assert bearing_element(2, 1, 2, DEVICE) == "portable"  # told once, tried once
-    with pytest.raises(RuntimeError, match=f'not possible: .*{reason}.*take route="portable"'):
+    with pytest.raises(RuntimeError, match=f'not possible: .*{reason}.*use route="portable"'):
         bearing_element(3, 1, 2, DEVICE, route="fast")
     assert opensees().getEleTags() == [1, 2]
     assert len(runs) == 1
@@ -107,7 +107,7 @@ def test_a_kept_failure_names_its_file(door: Path, monkeypatch: pytest.MonkeyPat
     runs = instead(monkeypatch, NUMBERS)
     first = selftest.why_not_fast()
     selftest.why_not_fast.cache_clear()  # as in another process
-    assert selftest.why_not_fast() == f"{first}; remove {door} to have it tried again"
+    assert selftest.why_not_fast() == f"{first}; remove {door} to repeat the test"
     assert len(runs) == 1
 
 

@@ -393,7 +393,7 @@ def test_a_device_that_cannot_be_made_leaves_the_others() -> None:
     table = found.table()
     assert table.loc["LIR-DCFP", "capacity [m]"] == found.bearings()[0].lateral_capacity
     assert math.isnan(table.loc[free, "capacity [m]"])
-    assert "the plates overlap at rest" in str(found)
+    assert "the rise of both concave surfaces" in str(found)
 
 
 def test_pairs_of_which_no_bearing_can_be_made_leave_the_others() -> None:

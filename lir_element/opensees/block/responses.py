@@ -99,7 +99,7 @@ def bearing_messages(placed: PlacedBearing) -> dict[int, str]:
     load = f"its design load, {design_load:g} N ({design_load / placement.force_unit:g} of the"
     units = (
         "What to try: check the model's loads and units (length_unit, force_unit of "
-        "bearing_element), or give the device its design_load."
+        "bearing_element), or set design_load of the bearing."
     )
     up = ", ".join(f"{each:g}" for each in placement.axes[2])
     texts = {
@@ -107,23 +107,23 @@ def bearing_messages(placed: PlacedBearing) -> dict[int, str]:
         for status in RunStatus
     }
     texts[NEVER_LOADED] = (
-        f"{who} has no state where it was moved to, and was never compressed along its axis, "
-        f"({up}) in the model. What to try: if the model's vertical is another, name it by "
-        "orient=(x, y, z), (0, 1, 0) where y points upwards; apply the weight before anything else."
+        f"{who} found no equilibrium, and was never in compression along its axis "
+        f"({up}). What to try: set orient=(0, 1, 0) if y is vertical; apply the weight "
+        "first."
     )
     texts[LOAD_LOW] = (
         f"{who} carries less than an eighth of {load} model's units) as it begins to move. {units}"
     )
     texts[LOAD_HIGH] = f"{who} carries more than eight times {load} model's units). {units}"
-    texts[TOLD_ENOUGH] = f"{who}: trials without a state are not told from here on."
+    texts[TOLD_ENOUGH] = f"{who}: further trials without equilibrium are not reported."
     texts[NOT_SAVED] = (
-        f"{who} is neither saved to a database nor restored from one: its state is no part of it. "
-        "What to try: run the analysis again up to here, or keep several analyses in one process."
+        f"{who} is neither saved to nor restored from a database. What to try: repeat "
+        "the analysis up to this point, or run several analyses in one process."
     )
     texts[HINT] = (
-        "a step failed in a model with LIR bearings. Try algorithm KrylovNewton or smaller "
-        "steps. Where the system of equations is a symmetric one (ProfileSPD, BandSPD, SparseSYM), "
-        "that is the cause: the bearings, whose tangent is unsymmetric, need UmfPack, BandGeneral "
-        'or FullGeneral, or tangent="symmetric" in bearing_element.'
+        "a step failed in a model with LIR bearings. Try algorithm KrylovNewton or "
+        "smaller steps. A symmetric system (ProfileSPD, BandSPD, SparseSYM) cannot "
+        "solve the unsymmetric tangent: use UmfPack, BandGeneral or FullGeneral, or "
+        'tangent="symmetric" in bearing_element.'
     )
     return {number: f"WARNING {text}\n" for number, text in texts.items()}

@@ -222,8 +222,8 @@ def builtin_element(
             getattr(ops, name)(*arguments)
         except ops.OpenSeesError as cause:
             msg = (
-                f"OpenSees refused {name}{tuple(arguments)}: its own output above has the "
-                "reason. If the tag exists, choose another first_tag"
+                f"OpenSees refused {name}{tuple(arguments)}: see its output above. If the tag "
+                "exists, choose another first_tag"
             )
             raise ValueError(msg) from cause
     if tag not in ops.getEleTags():
@@ -248,16 +248,16 @@ def _check_nodes(ops: Any, tag: int, i: int, j: int, bearing: LIRBearing) -> boo
             )
             raise ValueError(msg)
     if tag in (ops.getEleTags() or ()):
-        msg = f"element tag {tag} is taken: give another"
+        msg = f"element tag {tag} is taken: choose another"
         raise ValueError(msg)
     below, above = ops.nodeCoord(i), ops.nodeCoord(j)
     rise = above[2] - below[2]
     aside = math.hypot(above[0] - below[0], above[1] - below[1])
     if aside > SAME_PLACE or min(abs(rise), abs(rise - bearing.height)) > SAME_PLACE:
         msg = (
-            f"node {j} is {rise:g} m above node {i} and {aside:g} m aside: it must be on the same "
-            f"vertical, 0 or the bearing's height {bearing.height:g} m above. For a model in other "
-            "units than m and N use bearing_element with length_unit and force_unit"
+            f"node {j} is {rise:g} m above node {i} and {aside:g} m beside it: use the same "
+            f"x and y, and a rise of 0 or the bearing's height {bearing.height:g} m. For "
+            "units other than m and N use bearing_element"
         )
         raise ValueError(msg)
     return bool(abs(rise) > SAME_PLACE)

@@ -109,14 +109,14 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
     load = require_positive("axial_load", axial_load, "N")
     if not bearing.is_dcfp:
         msg = (
-            f"interface_friction = {bearing.interface_friction:g}: no element of OpenSees has an "
-            "interface that slips; give bearing.as_dcfp(), its rigid slider"
+            f"interface_friction = {bearing.interface_friction:g}: no element of OpenSees "
+            "has a slipping interface; use bearing.as_dcfp()"
         )
         raise ValueError(msg)
     if bearing.friction_law != "elastic-plastic":
         msg = (
-            f'friction_law = "{bearing.friction_law}": these elements are elastic and then '
-            'perfectly plastic; give friction_law="elastic-plastic"'
+            f'friction_law = "{bearing.friction_law}": these elements are elastic-perfectly '
+            'plastic; set friction_law="elastic-plastic"'
         )
         raise ValueError(msg)
     require_constant_friction(bearing, TO_OPENSEES)
@@ -126,8 +126,8 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
     least = min(law.f_min for law in laws)
     if least <= 0.0:
         msg = (
-            f"friction coefficient {least:g}: the friction models of OpenSees end the process "
-            "unless it is positive; give a small one, 1e-6"
+            f"friction coefficient {least:g}: friction models of OpenSees need a positive "
+            "one; use a small value, 1e-6"
         )
         raise ValueError(msg)
     highs = [law.f_max if law.rate > 0.0 else law.f_min for law in laws]
@@ -159,9 +159,9 @@ def laws_of_opensees(bearing: LIRBearing) -> list[CoulombFriction | VelocityFric
     for law in bearing.frictions:
         if not isinstance(law, known):
             msg = (
-                f"friction = {law!r}: the friction models of OpenSees follow Coulomb's law "
-                "(CoulombFriction) or the exponential one (VelocityFriction): give one of them, "
-                "or use bearing_element for any law"
+                f"friction = {law!r}: OpenSees supports Coulomb friction (CoulombFriction) and "
+                "exponential friction (VelocityFriction): use one of them, or bearing_element "
+                "for any law"
             )
             raise ValueError(msg)
     return [law for law in bearing.frictions if isinstance(law, known)]
@@ -177,9 +177,9 @@ def _rate(bearing: LIRBearing) -> float:
     ]
     if rates and max(rates) - min(rates) > _SAME * max(rates):
         msg = (
-            f"radius = {radii} with friction rates {tuple(law.rate for law in laws)} s/m: one "
-            f"law cannot represent surfaces whose rates over the bearing's velocity differ "
-            f"({rates[0]:.4g} and {rates[1]:.4g} s/m): give rates with equal rate * radius, or "
+            f"radius = {radii} with friction rates {tuple(law.rate for law in laws)} s/m: "
+            "one law cannot represent surfaces with different rates over the bearing's "
+            f"velocity ({rates[0]:.4g} and {rates[1]:.4g} s/m): use equal rate * radius, or "
             "CoulombFriction"
         )
         raise ValueError(msg)

@@ -16,8 +16,9 @@ BUILTIN_KINDS: tuple[BuiltinKind, ...] = get_args(BuiltinKind)
 """The elements of OpenSees that a plain bearing can be written as."""
 
 _CONSTANT = {
-    "TripleFrictionPendulum": "TripleFrictionPendulum takes friction from the velocity of the "
-    "iteration before and does not settle",
+    "TripleFrictionPendulum": (
+        "TripleFrictionPendulum does not converge with friction that depends on velocity"
+    ),
     "TFP": "TFP has constant friction",
 }
 _WITH_RIMS = ("TripleFrictionPendulum",)
@@ -37,7 +38,7 @@ def refuse(kind: str, bearing: LIRBearing, values: BuiltinValues, *, lift: bool)
     capacity, varies = bearing.lateral_capacity, values.friction_max > values.friction_min
     if kind not in _WITH_RIMS and math.isfinite(capacity):
         msg = (
-            f"capacity = {capacity:g} m: {kind} has no rims that work; give "
+            f"capacity = {capacity:g} m: {kind} does not model rims; use "
             f"bearing.as_dcfp(rims=False), or choose {_WITH_RIMS[0]}"
         )
         raise ValueError(msg)
@@ -47,14 +48,14 @@ def refuse(kind: str, bearing: LIRBearing, values: BuiltinValues, *, lift: bool)
     if kind in _CONSTANT and varies:
         msg = (
             f"friction between {values.friction_min:.4g} and {values.friction_max:.4g}: "
-            f"{_CONSTANT[kind]}; give CoulombFriction, or choose another element"
+            f"{_CONSTANT[kind]}; use CoulombFriction, or choose another element"
         )
         raise ValueError(msg)
     half = 0.5 * values.friction_max
     if kind == "FPBearingPTV" and varies and abs(values.friction_min - half) > _SAME * half:
         msg = (
-            f"f_min / f_max = {values.friction_min / values.friction_max:.4g}: FPBearingPTV has "
-            "one half built in; give f_min = f_max / 2 or CoulombFriction, or choose another "
+            f"f_min / f_max = {values.friction_min / values.friction_max:.4g}: FPBearingPTV "
+            "always uses 0.5; set f_min = f_max / 2, use CoulombFriction, or choose another "
             "element"
         )
         raise ValueError(msg)

@@ -359,7 +359,7 @@ class _Builder:
 def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
     """Refuse options and bearings that have no macro-model of this kind."""
     if not isinstance(directions, int) or directions < _FEWEST or directions % _FEWEST:
-        msg = f"directions = {directions!r}: give a multiple of 4"
+        msg = f"directions = {directions!r} must be a multiple of 4: use 8 or more for a round rim"
         raise ValueError(msg)
     require_choice("restoring", restoring, ("series", "across"))
     require_constant_friction(bearing, TO_OPENSEES)
@@ -368,9 +368,10 @@ def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
     laws_of_opensees(bearing)
     if bearing.interface_friction <= bearing.effective_friction:
         msg = (
-            f"interface_friction = {bearing.interface_friction:g} does not exceed the surfaces' "
-            f"friction over weight, {bearing.effective_friction:g}: the interface slips before the "
-            "rims are met, which sliders in series do not show; use the element"
+            f"interface_friction = {bearing.interface_friction:g} does not exceed the "
+            f"friction of the surfaces, {bearing.effective_friction:g}: the interface slips "
+            "before rim contact, which the macro-model does not support. Use "
+            "bearing_element"
         )
         raise ValueError(msg)
 
@@ -402,6 +403,6 @@ def _first_tag(ops: Any, given: object) -> int:
     if given is None:
         return 1 + max(_FIRST - 1, *map(int, [*ops.getNodeTags(), *ops.getEleTags()]))
     if isinstance(given, bool) or not isinstance(given, int) or given < 1:
-        msg = f"first_tag = {given!r}: give a whole number of at least 1"
+        msg = f"first_tag = {given!r} must be an integer of at least 1: choose a free tag"
         raise ValueError(msg)
     return given

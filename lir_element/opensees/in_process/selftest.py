@@ -55,8 +55,8 @@ def why_not_fast() -> str:
     key = _fingerprint(path)
     known = _kept(verdicts)
     if key in known:
-        return known[key] and f"{known[key]}; remove {verdicts} to have it tried again"
-    say("trying the in-process coupling with OpenSees: once, a minute or three")
+        return known[key] and f"{known[key]}; remove {verdicts} to repeat the test"
+    say("testing the in-process coupling with OpenSees (once, one to three minutes)")
     verdict, decided = _run_child()
     if decided:
         keep(verdicts, json.dumps(known | {key: verdict}, indent=1).encode())

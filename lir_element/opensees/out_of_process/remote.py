@@ -176,10 +176,9 @@ class Remote:
         if _SAME_CLOCK * step < away < (1.0 - _SAME_CLOCK) * step:
             self._warned = True
             msg = (
-                f"bearing element {self.placed.tag}: rates of sliding would be wrong, "
-                f"because the integrator tries states at {committed:g} s and commits them "
-                f"{away:g} s apart, and this build of OpenSees does not report it. Use the "
-                "integrator Newmark or TRBDF2"
+                f"bearing element {self.placed.tag}: sliding velocities would be wrong, because "
+                f"the integrator tries states at {committed:g} s but commits them {away:g} s "
+                "apart. Use the integrator Newmark or TRBDF2"
             )
             warnings.warn(msg, RouteWarning, stacklevel=4)
 
@@ -216,8 +215,8 @@ class ForkedElements:
 
     def __init__(self, remotes: Iterable[Remote]) -> None:
         message = (
-            f"WARNING the bearings of this model are those of process {os.getppid()}, which this "
-            "one was forked from; the analysis cannot go on: wipe the model and build it again.\n"
+            f"WARNING the bearings of this model belong to process {os.getppid()}, from "
+            "which this one was forked: wipe the model and build it again.\n"
         )
         self._guard = Guard(None, message)
         own = {(tuple(each.laddr), tuple(each.raddr)): each.fd for each in own_connections()}
