@@ -96,8 +96,8 @@ def book_lines(path: Path) -> CsvLines:
 def _text(row: int, cell: object) -> str:
     if isinstance(cell, datetime.date | datetime.time):
         msg = (
-            f"row {row}: {cell} is a date: a spreadsheet makes one of 1-3; give the column the "
-            "format of text"
+            f"row {row}: {cell} is a date: format the column as text, because spreadsheets "
+            "change 1-3 into a date"
         )
         raise ValueError(msg)
     if isinstance(cell, bool):
@@ -110,14 +110,14 @@ def _text(row: int, cell: object) -> str:
 def _cell(line: int, cell: str, separator: str) -> str:
     """Return a cell, a decimal comma as a point."""
     if _THOUSANDS.fullmatch(cell) and "," in cell:
-        msg = f"line {line}: {cell.strip()} has signs of thousands: write it without them"
+        msg = f"line {line}: {cell.strip()} has thousands separators: remove them"
         raise ValueError(msg)
     if not _COMMA.fullmatch(cell):
         return cell
     if separator == ",":
         msg = (
-            f"line {line}: {cell.strip()} has a decimal comma, and commas separate the cells: "
-            "write a point, or separate the cells by semicolons"
+            f"line {line}: {cell.strip()} has a decimal comma, but commas separate the "
+            "cells: use decimal points, or separate the cells by semicolons"
         )
         raise ValueError(msg)
     return cell.replace(",", ".")

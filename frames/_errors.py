@@ -130,7 +130,7 @@ def in_python(text: str) -> str:
 def bearing_for(place: str) -> str:
     """Return how to replace links by a bearing: by a mapping, or by ``bearings_at``."""
     if _IN_FILE.get():
-        return f"{argument('at', [place])}, which puts that of [bearing] there"
+        return f"{argument('at', [place])}, to use [bearing] there"
     return f'bearing={{"{place}": LIRBearing(...)}}'
 
 
@@ -151,10 +151,10 @@ def new_name(name: str, taken: Collection[str], kind: str) -> str:
     """Return a name that is neither empty nor in use, or raise."""
     require_type(f"name of a {kind}", name, str, "a string: write it in quotes")
     if not name.strip():
-        message = f"the name of a {kind} is empty: give it at least one visible character"
+        message = f"the name of a {kind} is empty: use at least one visible character"
         raise ModelError(message)
     if name in taken:
-        message = f'a {kind} "{name}" exists already: names are unique, choose another one'
+        message = f'a {kind} "{name}" exists already: choose another name'
         raise ModelError(message)
     return name
 

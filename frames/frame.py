@@ -96,12 +96,15 @@ class NonlinearBuilder(FrameBuilder):
             )
         if any(self._members[member].releases):
             message = (
-                f'member "{member}" has releases, and plastic hinges do not go with them: leave '
-                "out one of the two"
+                f'member "{member}" has releases, which do not combine with plastic hinges: '
+                "leave out one of the two"
             )
             raise ModelError(message)
         if not given:
-            message = f'add_hinges("{member}", {{}}) names no end: give "i", "j" or one hinge'
+            message = (
+                f'add_hinges("{member}", {{}}) names no end: set hinges at "i" or "j", '
+                "or pass one hinge for both"
+            )
             raise ModelError(message)
         self._hinges[member] = (given.get("i"), given.get("j"))
 
@@ -170,8 +173,8 @@ class NonlinearBuilder(FrameBuilder):
         size = float(np.linalg.norm(vector))
         if not size > 0.0:
             message = (
-                f'direction of link "{name}" has no length: its nodes "{i}" and "{j}" stand at one '
-                'place, give "ux", "uy", "uz" or a vector'
+                f'direction of link "{name}" has no length, because nodes "{i}" and "{j}" '
+                'coincide: set direction to "ux", "uy", "uz" or a vector'
             )
             raise ModelError(message)
         return tuple((vector / size).tolist()), turns

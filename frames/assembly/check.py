@@ -81,8 +81,8 @@ def check_connections(frame: FrameData) -> None:
     if not supported.all():
         alone = int(np.flatnonzero(~supported)[0])
         message = (
-            f"{_quoted(names[part == alone])}: this part of the structure is connected to no "
-            "support: fix a node of it, or connect it to the rest"
+            f"{_quoted(names[part == alone])}: this part of the structure has no support: "
+            "fix one of its nodes, or connect it to the rest"
         )
         raise ModelError(message)
 
@@ -90,15 +90,15 @@ def check_connections(frame: FrameData) -> None:
 def check_mass(system: System) -> None:
     """Refuse a system without free DOFs, or without mass in a free motion."""
     if not system.dof_labels:
-        message = "every degree of freedom is fixed: release what should move"
+        message = "every degree of freedom is fixed: release those that shall move"
         raise ModelError(message)
     moving = (np.diff(system.transform.indptr) > 0).reshape(-1, 6)[:, :3]
     inert = moving & (system.node_mass[:, :3] > 0.0)
     if not inert.any():
         total = float(system.node_mass[:, 0].sum())
         message = (
-            f"no node that can translate has mass ({total:g} kg in all, on fixed nodes): "
-            "add mass with add_mass, or give the sections a density"
+            f"no free node has mass ({total:g} kg in all, on fixed nodes): add mass by "
+            "add_mass, or set the density of the sections"
         )
         raise ModelError(message)
     for axis, word in enumerate("xyz"):
@@ -110,8 +110,8 @@ def check_mass(system: System) -> None:
                 f"the mass is at {_quoted(holding)}, fixed along {word}; " if len(holding) else ""
             )
             message = (
-                f"no mass along {word}: {_quoted(free)} can move along {word}, but no node that "
-                f'can has mass: {where}put mass on one of them, or fix their "u{word}"'
+                f"no mass along {word}: {_quoted(free)} can move along {word}, but have none: "
+                f'{where}add mass to one of them, or fix their "u{word}"'
             )
             raise ModelError(message)
 
@@ -132,10 +132,7 @@ def check_restraint(system: System, stiffness: SparseMatrix) -> None:
     sizes = motions * np.where(turns, extent, 1.0)[:, None]
     count = motions.shape[1]
     more = "at least " if count == MOTIONS < len(labels) else ""
-    lines = [
-        f"the structure is a mechanism: {more}{count} independent motion(s) meet no stiffness of "
-        "members, springs or bearings"
-    ]
+    lines = [f"the structure is a mechanism: {more}{count} independent motion(s) without stiffness"]
     named: list[str] = []
     for k, size in enumerate(_localised(sizes).T[:NAMED], start=1):
         order = np.argsort(-np.abs(size), kind="stable")
@@ -193,19 +190,18 @@ def _localised(motions: FloatArray) -> FloatArray:
 
 def _remedy(system: System, node: str, dof: str) -> str:
     if node.endswith(" (diaphragm)"):
-        return "connect the diaphragm's nodes by members, springs or bearings that hold it"
+        return "connect the diaphragm's nodes by members, springs or bearings"
     advice = f'fix it with fix("{node}", "{dof}"), or connect the node by a member or a spring'
     if dof == "uz":
         advice = (
-            "connect the node by a member or a spring, and put its mass where members or bearings "
-            "carry it: a diaphragm ties nothing vertically, and a support would carry the "
-            "weight instead of the bearings"
+            "connect the node by a member or a spring, and move its mass to nodes on "
+            "members or bearings: a diaphragm has no vertical stiffness"
         )
     ends = {system.node_names[end] for _, i, j, _ in system.bearings for end in (i, j)}
     if node in ends and dof.startswith("r"):
         advice += (
-            "; at this level a bearing does not restrain the rotation of its plates: join the "
-            "nodes above the bearings by base beams"
+            "; at this level a bearing does not restrain the rotation of its plates: "
+            "connect the nodes above the bearings by base beams"
         )
     return advice
 

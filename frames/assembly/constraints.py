@@ -214,9 +214,9 @@ def separate_massless(mass: SparseMatrix, labels: tuple[str, ...]) -> tuple[Spar
         scaled = block / np.outer(root, root)
         if not empty and linalg.eigvalsh(scaled)[0] < -_NEGATIVE:
             message = (
-                f'there is negative mass near "{labels[cluster[int(np.argmin(diagonal))]]}" '
-                f"(smallest entry of the diagonal {diagonal.min():.4g} kg): give masses of 0 or "
-                "greater"
+                f'the mass is negative near "{labels[cluster[int(np.argmin(diagonal))]]}" '
+                f"(smallest entry of the diagonal {diagonal.min():.4g} kg): use masses of at "
+                "least 0"
             )
             raise ModelError(message)
         if empty:

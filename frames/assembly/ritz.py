@@ -218,8 +218,8 @@ def _factors(
     if not is_large(system):
         build_basis(system, geometric, damping)  # names the culprit
     message = (
-        "the structure over held bearings is unstable under its permanent loads: reduce the loads "
-        "or stiffen columns"
+        "the structure above the bearings is unstable under its permanent loads: reduce "
+        "the loads or stiffen columns"
     )
     raise ModelError(message)
 

@@ -42,9 +42,9 @@ def solve_positive(
         weak = np.abs(linalg.eigh(scaled, subset_by_index=[0, 0])[1][:, 0])
         warnings.warn(
             worded(
-                'the {what} near "{label}" is lost in the round-off of its neighbours, which are '
-                "1e16 times as large: give what is meant to be rigid 1,000 times theirs, or join "
-                "it by a diaphragm or offsets",
+                'the {what} near "{label}" is lost to round-off: its neighbours are 1e16 times '
+                "larger. Make rigid parts 1,000 times as stiff as their neighbours, or use a "
+                "diaphragm or offsets",
                 what=what,
                 label=labels[int(weak.argmax())],
             ),

@@ -49,9 +49,9 @@ class LoadPath(NamedTuple):
             return ""
         names = listed((f'"{node}" ({1e-3 * force:.4g} kN)' for node, force in taken), NAMED)
         return worded(
-            "the bearings carry {bearings:.4g} of the {weight:.4g} kN above them; vertical "
-            'supports carry the rest, at {names}. Free their "uz" and put the masses above '
-            "columns or bearings, unless these supports are meant",
+            "the bearings carry {bearings:.4g} of {weight:.4g} kN, vertical supports at "
+            '{names} the rest. Free their "uz" and put the masses on columns or bearings, '
+            "unless this is intended",
             bearings=1e-3 * self.bearings,
             weight=1e-3 * self.weight,
             names=names,
@@ -111,10 +111,9 @@ def held_sideways(
         nodes = (f'"{system.node_names[k]}"' for k in largest if forces[6 * k + axis])
         found.append(
             worded(
-                "springs or supports beside the bearings hold the structure along {axis}, "
-                "{beside:.3g} times as stiffly as the pendulums: it hardly slides. Remove "
-                "them or put them below the bearings, unless they are meant. They are at "
-                "{nodes}",
+                "springs or supports at {nodes} restrain the structure along {axis}, "
+                "{beside:.3g} times as stiff as the bearings: it hardly slides. Remove them or "
+                "put them below the bearings, unless this is intended",
                 axis=name,
                 beside=beside,
                 nodes=listed(nodes, NAMED),

@@ -115,7 +115,10 @@ def grid(
         factors = _factors(scales)
         return [Case(m, g, s) for m in models for g in motions for s in factors]
     if scales is not None:
-        msg = "cases and scales are given: cases name the scale of each run, leave scales out"
+        msg = (
+            "cases and scales are both given: leave scales out, because cases contain the "
+            "scale of each run"
+        )
         raise ValueError(msg)
     return _listed(cases, models, motions)
 
@@ -158,12 +161,12 @@ def _factor(value: object) -> float:
 
 def _unique(values: list[T], what: str) -> list[T]:
     if not values:
-        msg = f"{what} is empty: name at least one"
+        msg = f"{what} is empty: pass at least one"
         raise ValueError(msg)
     seen: set[T] = set()
     for value in values:
         if value in seen:
-            msg = f"{what}: {value} is there twice: give each once"
+            msg = f"{what}: {value} occurs twice: list each once"
             raise ValueError(msg)
         seen.add(value)
     return values
@@ -186,8 +189,8 @@ def _named(what: str, given: object, kind: type[T], one: str) -> dict[str, T]:
         require_type(f"{what}: {name}", value, kind, one)
         if name in found:
             msg = (
-                f'{what}: two have the name "{name}": give a mapping, {{"first": ..., "second": '
-                "...}, so that each run has a name of its own"
+                f'{what}: two have the name "{name}": pass a mapping with different names, '
+                '{"first": ..., "second": ...}'
             )
             raise ValueError(msg)
         found[name] = value

@@ -58,8 +58,8 @@ class KeptRuns:
         others = len({*self._folder.glob(f"*{ENDING}")} - {*paths})
         if others and not found:
             msg = worded(
-                "the {count} runs that {folder} holds are of another model, motion, option or "
-                "version: they are left aside",
+                "the {count} runs in {folder} are not used: they are of another model, motion, "
+                "option or version",
                 count=others,
                 folder=self._folder,
             )

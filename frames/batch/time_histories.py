@@ -195,8 +195,8 @@ class _Interrupted(AnalysisInterrupted):
     def __str__(self) -> str:
         done, total = self.data.sizes["run"], self.data.attrs["runs_asked_for"]
         return (
-            f"interrupted after {done} of {total} runs: they are in the attribute `data` of this "
-            "AnalysisInterrupted"
+            f"interrupted after {done} of {total} runs: their results are in the attribute "
+            "`data` of this AnalysisInterrupted"
         )
 
 
@@ -322,7 +322,7 @@ def _warn_of_runs(rows: Sequence[RunResult]) -> None:
     if marked:
         grave = [row for row in marked if _is_grave(row)]
         first = min(grave or marked, key=_place)
-        which = f"{len(grave)} with forces or accelerations beyond reason, the" if grave else "the"
+        which = f"{len(grave)} with unreliable forces or accelerations, the" if grave else "the"
         warnings.warn(
             f"{len(marked)} of {len(rows)} runs completed with a warning; {which} "
             f"first, run {first.place}: {'; '.join(first.findings.doubts()).rstrip('.')}. "

@@ -47,8 +47,8 @@ def doubt_weights(
         account.doubts.append(
             worded(
                 "{file}: material {names} has no weight, so {part:.3g} % of the volume of "
-                'all elements has none under pattern "{pattern}": give the material its '
-                "weight in that program, and export again",
+                'all elements weighs nothing in pattern "{pattern}". Set the weight in that '
+                "program, and export again",
                 file=account.file,
                 names=_quoted(without),
                 pattern=heavy[0],
@@ -87,12 +87,12 @@ def doubt_weights(
     )
     what = (
         worded(
-            "{part:.3g} % of the mass has no weight, so that the bearings carry too little",
+            "{part:.3g} % of the mass has no weight, so loads on the bearings are too low",
             part=100.0 * (1.0 - weight / mass),
         )
         if mass > weight
         else worded(
-            "{part:.3g} % of the permanent loads are no mass", part=100.0 * (1.0 - mass / weight)
+            "{part:.3g} % of the permanent loads have no mass", part=100.0 * (1.0 - mass / weight)
         )
     )
     same = {name: share for name, share in shares.items() if share and down.get(name, 0.0) > 0.0}
@@ -126,8 +126,8 @@ def doubt_base(
             account.doubts.append(
                 worded(
                     '{file}: constraint "{name}" ties uz of {count} joints on bearings, '
-                    "which {how}: bearings do not carry the columns above them. Remove UZ, "
-                    "RX and RY from it, unless the base is rigid",
+                    "which {how}, so bearing loads are wrong. Remove UZ, RX and RY from it, "
+                    "unless the base is rigid",
                     file=account.file,
                     name=part.name,
                     count=len(tied),
@@ -139,9 +139,9 @@ def doubt_base(
     if options.base_rotations == "kept" and held and beams:
         account.doubts.append(
             worded(
-                "{file}: supports fix the rotations of {count} joints on bearings "
-                "({some}), so column moments go to the ground and not to the beams "
-                '("{beam}"): let the beams restrain them, {remedy}',
+                "{file}: supports fix the rotations of {count} joints on bearings ({some}), "
+                'so column moments do not reach the beams ("{beam}"). Free the rotations, '
+                "{remedy}",
                 file=account.file,
                 count=len(held),
                 some=account.some(held),
@@ -157,9 +157,9 @@ def doubt_base(
     if base < LIGHT_BASE * whole:
         account.doubts.append(
             worded(
-                "{file}: the level on the bearings has {mass:.3g} t, {part:.2g} % of the "
-                "mass, so its accelerations have no meaning: model the slab or the beams "
-                "there, or add their mass to these joints",
+                "{file}: the level on the bearings has only {mass:.3g} t, {part:.2g} % of "
+                "the mass, so its accelerations are not valid. Model the slab or the beams "
+                "there, or add their mass",
                 file=account.file,
                 mass=1e-3 * base,
                 part=100.0 * base / whole,
@@ -176,7 +176,7 @@ def note_members(building: Building, sections: Sections, divided: list[SplitMemb
     account = building.account
     account.read_as(
         "sections",
-        worded("with a stiffness of none, taken as {factor:g} of it", factor=LEAST_FACTOR),
+        worded("with a stiffness factor of 0, read as {factor:g}", factor=LEAST_FACTOR),
         sorted(sections.softened),
     )
     sizes = Sizes(building)

@@ -231,13 +231,13 @@ def read_stories(tables: Tables, building: Building) -> None:
     for row in reversed(rows[:-1]):
         height = one * row.number("HEIGHT")
         if height <= 0.0:
-            msg = f'HEIGHT of story "{row.text("Story")}" must be positive'
+            msg = f'HEIGHT of story "{row.text("Story")}" must be above 0: correct it'
             raise row.error(msg)
         elevation += height
         building.stories.append((row.text("Story"), elevation))
     names = [name for name, _ in building.stories]
     if len(set(names)) < len(names):
-        msg = "two stories have one name: rename one of them"
+        msg = "two stories have the same name: rename one of them"
         raise base.error(msg)
     building.account.read("STORIES", "stories", len(names))
 

@@ -63,7 +63,7 @@ class EtabsLinks:
             other = joints[1] if len(joints) > 1 else None
             angle = given.number("ANG", 0.0)
             if name in self.building.links:
-                msg = f'link "{name}" is there already: keep one of the two'
+                msg = f'link "{name}" occurs twice: keep one of the two'
                 raise row.error(msg)
             link = LinkObject(name, joints[0], other, found[0], row.place, angle)
             self.building.links[name] = link

@@ -53,7 +53,7 @@ class Objects:
         for row in self.tables.needed("POINT", "export the whole model"):
             name = row.text("Point")
             if name in self._points:
-                msg = f'point "{name}" is there already: keep one of the two'
+                msg = f'point "{name}" occurs twice: keep one of the two'
                 raise row.error(msg)
             x, y, below = values(row, dialect.POINT, self.building).values()
             self._points[name] = (x, y, below)
@@ -171,7 +171,7 @@ class Objects:
             joints.append(self.joint(area, point, self._below(row, story, int(down))))
         label = f"{name}-{story}"
         if len(set(joints)) < len(joints):
-            msg = f'area "{name}" has one corner twice'
+            msg = f'area "{name}" has a corner twice: remove it'
             raise area.error(msg)
         if refused(row, label, building.account, dialect.AREA_WORDS):
             return

@@ -82,8 +82,8 @@ def _refuse(frame: FrameData, displacement: float | None, program: str) -> None:
             raise ModelError(message)
     if frame.bearings and displacement is None:
         message = (
-            "bearings are written as friction isolator links, whose effective stiffness and "
-            "damping are those at a displacement: give displacement=0.25, in metres"
+            "bearings are written as friction isolator links with effective stiffness and "
+            "damping at a displacement: set it, displacement=0.25 [m]"
         )
         raise ModelError(message)
     shared = [p.name for p in frame.floor_loads.values() if p.mass is not None]
@@ -148,8 +148,8 @@ def _material(name: str, key: tuple[float, float, float], member: str, program: 
     poisson = 0.5 * modulus / shear - 1.0
     if not -1.0 < poisson <= 0.5:
         message = (
-            f'member "{member}": moduli {modulus:g} and {shear:g} Pa have Poisson\'s ratio '
-            f"{poisson:g}, {program} needs one in (-1, 0.5]: give another shear_modulus"
+            f'member "{member}": moduli {modulus:g} and {shear:g} Pa give a Poisson\'s ratio '
+            f"of {poisson:g}, but {program} needs (-1, 0.5]: change shear_modulus"
         )
         raise ModelError(message)
     return Material(name, modulus, shear, poisson, density, 0.0)
@@ -170,9 +170,9 @@ def _angle(member: Member, start: FloatArray, end: FloatArray, program: str) -> 
     axes = frame_axes(start, end)
     if float(along @ axes[0]) < 1.0 - 1e-12:
         message = (
-            f'member "{member.name}": its offsets turn it against the line between its nodes, '
-            f"which {program}'s local axes do not follow: give both ends the same offset "
-            "across it"
+            f'member "{member.name}": its offsets rotate its axis, but local axes in '
+            f"{program} follow the line between nodes: use the same transverse offset at "
+            "both ends"
         )
         raise ModelError(message)
     up = default_up(first[None], last[None])[0] if member.up is None else np.array(member.up)
@@ -191,9 +191,9 @@ def _add_loads(frame: FrameData, building: Building) -> None:
         at[node, _DEAD] = np.array([0.0, 0.0, -weight, 0.0, 0.0, 0.0])
     if shares.get(_DEAD) and at:
         message = (
-            "weighing masses and members cannot be written if dead loads are masses as "
-            "well: use add_mass(..., weighs=False), sections of density 0, and loads for "
-            "their weights"
+            "masses with weight cannot be written if dead loads are also masses: use "
+            "add_mass(..., weighs=False), sections with density 0, and loads for their "
+            "weights"
         )
         raise ModelError(message)
     for node, cases in frame.loads_by_case.items():
@@ -267,8 +267,8 @@ def _add_springs(frame: FrameData, building: Building) -> None:
         axes = frame_axes(first, last) if apart > COINCIDENT else UPRIGHT
         if float(np.abs(axes).max(axis=1).min()) < 1.0 - 1e-9:
             message = (
-                f'spring "{spring.name}" joins nodes that are apart across global axes, which a '
-                "link in its own axes cannot be: join nodes along X, Y or Z"
+                f'spring "{spring.name}" joins nodes that do not lie along a global axis, '
+                "which a link does not support: join nodes along X, Y or Z"
             )
             raise ModelError(message)
         dofs = {}
@@ -295,8 +295,8 @@ def _add_bearings(frame: FrameData, building: Building, displacement: float) -> 
 def _isolator(part: BearingLink, load: float, displacement: float) -> LinkProperty:
     if load <= 0.0:
         message = (
-            f'bearing "{part.name}" carries {load:g} N under the permanent loads: a link has '
-            "no effective stiffness without a compression"
+            f'bearing "{part.name}" carries {load:g} N under the permanent loads, but a link '
+            "needs compression: add load on it"
         )
         raise ModelError(message)
     link = pendulum_link(part.bearing, load, displacement)

@@ -58,9 +58,7 @@ class Options:
             message = f'at = "{self.at}" must be a list of names: write ["{self.at}"]'
             raise TypeError(message)
         if self.at is not None and (self.bearing is None or isinstance(self.bearing, Mapping)):
-            message = (
-                "at= gives the places of one bearing: give one LIRBearing, or a mapping without at"
-            )
+            message = "at needs one bearing: pass one LIRBearing, or a mapping without at"
             raise ModelError(message)
 
 
@@ -140,7 +138,7 @@ class ImportReport:
             self.doubts.append(
                 worded(
                     "{file}, {table}: unknown words were not read: {words}. Check in that "
-                    "program whether they change the model, and if so model it without them",
+                    "program if they change the model; if so, model it without them",
                     file=self.file,
                     table=table,
                     words=self.some(found),
@@ -198,11 +196,11 @@ class ImportReport:
         self._refused.clear()
         if not found:
             return
-        accept = f"or accept that with {argument('allow', sorted({*self.allow, *keys}))}"
+        accept = f"or accept it by {argument('allow', sorted({*self.allow, *keys}))}"
         if len(found) == 1:
             out = f" would change the answer if left out: take it out of the model, {accept}"
             raise ModelError(found[0] + (out if keys else ""))
-        lines = [f"{self.file} cannot be read as it is, for {len(found)} reasons:"]
+        lines = [f"{self.file} cannot be read, for {len(found)} reasons:"]
         lines += [f"({k}) {reason}" for k, reason in enumerate(found[: self.REASONS], start=1)]
         if len(found) > self.REASONS:
             lines.append(f"and {len(found) - self.REASONS} more")
@@ -218,10 +216,7 @@ class ImportReport:
         self.settle()
         idle = sorted(self.allow - self._used)
         if idle:
-            message = (
-                f'{self.file}: allow has "{idle[0]}", but the file needs no such '
-                "permission: remove it"
-            )
+            message = f'{self.file}: allow has "{idle[0]}", but the file has none of it: remove it'
             raise ModelError(message)
 
     def some(self, names: Collection[str], count: int | None = None) -> str:

@@ -55,14 +55,14 @@ def equivalent_bearing(link: LinkProperty, place: str, height: float = 0.0) -> L
     if len(found) < 2 or any(word not in values for values in found for word in words[:3]):
         message = (
             f'{place}: link property "{link.name}" needs nonlinear U2 and U3 with radius and '
-            "friction to become a bearing: give the bearing, " + bearing_for(link.name)
+            "friction to become a bearing: set the bearing, " + bearing_for(link.name)
         )
         raise ModelError(message)
     pairs = [tuple(values.get(word, 0.0) for word in words) for values in found]
     if not np.allclose(pairs[0], pairs[1], rtol=1e-6) or not pairs[0][0] > 0.0:
         message = (
             f'{place}: link property "{link.name}" must have one positive radius and one friction '
-            "in U2 and U3 to become a bearing: give the bearing, " + bearing_for(link.name)
+            "in U2 and U3 to become a bearing: set the bearing, " + bearing_for(link.name)
         )
         raise ModelError(message)
     radius, slow, fast, rate = pairs[0]

@@ -213,9 +213,8 @@ class Places:
             some = [*building.groups, *building.link_properties]
             some += [n for n, joint in building.joints.items() if joint.z - low < SAME_PLACE]
             message = (
-                f"{building.account.file} has no joint that is restrained vertically to put a "
-                "bearing under: name groups, joints, links or link properties, "
-                f"{argument('at', some[:4])}"
+                f"{building.account.file} has no vertically restrained joint for a bearing: "
+                f"name groups, joints, links or link properties, {argument('at', some[:4])}"
             )
             raise ModelError(message)
 
@@ -243,12 +242,18 @@ class Places:
             )
             raise ModelError(message)
         if not joints and not links:
-            message = f'"{name}" of {building.account.file} has no restrained joint and no link'
+            message = (
+                f'"{name}" of {building.account.file} has no restrained joint and no '
+                "link: name another place for the bearing"
+            )
             raise ModelError(message)
         for place, found in ((self.joints, joints), (self.links, links)):
             for each in found:
                 if each in place:
-                    message = f'"{each}" would get two bearings: it belongs to "{name}" and others'
+                    message = (
+                        f'"{each}" would get two bearings: it belongs to "{name}" and '
+                        "others. Name it once"
+                    )
                     raise ModelError(message)
                 place[each] = device
 

@@ -64,8 +64,8 @@ def mesh_areas(
     count = sum(math.prod(len(cuts[_key(edge)]) - 1 for edge in edges_of(a)[:2]) for a in areas)
     if count > MOST:
         message = (
-            f"walls and slabs come to {count} elements with {argument('mesh', size)}, at most "
-            f"{MOST} are read: give longer elements, or give floors rigid diaphragms"
+            f"walls and slabs have {count} elements with {argument('mesh', size)} (at most "
+            f"{MOST}): use longer elements, or rigid diaphragms for floors"
         )
         raise ModelError(message)
     joints = set(points)
@@ -80,8 +80,9 @@ def mesh_areas(
             continue
         if area.name in inside:
             message = (
-                f'{area.place}: joint "{next(iter(inside[area.name]))}" lies within the triangle '
-                f'"{area.name}", whose shell would not meet it: divide it into quadrilaterals'
+                f'{area.place}: joint "{next(iter(inside[area.name]))}" lies inside the '
+                f'triangle "{area.name}", whose mesh cannot connect to it: divide it into '
+                "quadrilaterals"
             )
             raise ModelError(message)
         divided = [edge for edge in edges_of(area) if len(names[_key(edge)]) > 2]

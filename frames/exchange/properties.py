@@ -129,11 +129,10 @@ def section_by_shape(
         raise row.error(msg) from cause
     if found is None:
         message = (
-            f'section "{name}" is a "{shape}" without Area, I33, I22 and torsion constant: known '
-            "by dimensions are rectangles, circles, I shapes, tubes of one thickness and pipes, by "
-            "name IPE, HEA, HEB and HEM; define it as a general section, or of an ETABS model give "
-            f"its constants, {argument('sections', {name: ...})}, or the file of the program that "
-            f"has them, {argument('library', ['AISC14.xml'])}"
+            f'section "{name}" is a "{shape}" without Area, I33, I22 and torsion constant: '
+            "define it as a general section, or for ETABS set its constants, "
+            f"{argument('sections', {name: ...})}, or its property file, "
+            f"{argument('library', ['AISC14.xml'])}"
         )
         raise row.error(message)
     return with_constants(name, material, shape, found, sizes)
@@ -197,7 +196,7 @@ def filled_section(
     if wall is None or core is None:
         message = (
             f'section "{name}": TF = {sizes[2]:g} m and TW = {web:g} m differ, but filled '
-            "tubes must have one thickness: give its constants, "
+            "tubes need equal thickness: set its constants, "
             f"{argument('sections', {name: ...})}"
         )
         raise row.error(message)
@@ -256,7 +255,9 @@ def _read(path: Path) -> dict[str, Shape]:
     try:
         content = path.read_bytes()
     except OSError as cause:
-        message = f"{path} cannot be read: {cause.strerror}; name the property file of the program"
+        message = (
+            f"{path} cannot be read ({cause.strerror}): name a property file of ETABS or SAP2000"
+        )
         raise ModelError(message) from cause
     rows = _Entries(path.name)
     try:
@@ -264,7 +265,7 @@ def _read(path: Path) -> dict[str, Shape]:
     except (expat.ExpatError, LookupError, ValueError) as cause:  # of these, encodings
         where = f", line {cause.lineno}" if isinstance(cause, expat.ExpatError) else ""
         message = (
-            f"{path.name}{where}: {cause}; it must be whole, as XML: name a property file of ETABS "
+            f"{path.name}{where} is not valid XML ({cause}): name a property file of ETABS "
             "or SAP2000, AISC14.xml"
         )
         raise ModelError(message) from cause

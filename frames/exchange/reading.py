@@ -34,10 +34,7 @@ def read_text(path: Path) -> str:
             text = data.decode(code)
             if text.count("\0") * _FEW <= len(text):  # ETABS ends a comment of its log by one
                 return text.replace("\0", "")
-    message = (
-        f"{path.name} is not a text file: export the model as text (File > Export); binary "
-        "models cannot be read"
-    )
+    message = f"{path.name} is a binary file: export the model as text (File > Export)"
     raise ModelError(message)
 
 
@@ -138,8 +135,8 @@ def read_excel(path: Path) -> Tables:
         book.close()
     if not list(tables):
         message = (
-            f'{path.name} holds no tables of SAP2000: the first cell of a sheet is "TABLE:  ...", '
-            "the second row has the names of the fields, the third their units"
+            f'{path.name} has no tables of SAP2000: export sheets with "TABLE:  ..." in the '
+            "first cell, names of fields in the second row and units in the third"
         )
         raise ModelError(message)
     return tables
@@ -200,8 +197,8 @@ def read_e2k(path: Path, decimal: Decimal = ".") -> Tables:
         _add(tables, _row(name, section, line, text, decimal))
     if not begun:
         message = (
-            f"{name} is not an ETABS text file, which has a section $ PROGRAM INFORMATION: "
-            "export the model with File > Export > ETABS Text File"
+            f"{name} is not an ETABS text file (no section $ PROGRAM INFORMATION): export "
+            "the model with File > Export > ETABS Text File"
         )
         raise ModelError(message)
     if not ended:

@@ -118,8 +118,8 @@ def _section(row: Row, name: str, building: Building) -> FrameSection:
     own = row.has("Area", "I33", "I22")
     if not own and any(each.odd(row) for each in dialect.SECTION_WORDS):
         message = (
-            f'section "{name}" is nonprismatic: divide its frame objects, and give each '
-            "part a prismatic section"
+            f'section "{name}" is nonprismatic: divide its frame objects, and assign a '
+            "prismatic section to each part"
         )
         raise row.error(message)
     refused(row, name, account, dialect.SECTION_WORDS)

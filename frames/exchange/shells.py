@@ -98,8 +98,8 @@ def with_quadrilaterals(
         turns = np.cross(corners - middle, np.roll(corners, -1, axis=0) - middle) @ normal
         if turns.min() <= 0.0:
             message = (
-                f'{area.place}: area "{area.name}" is a shell of {len(corners)} corners, which '
-                "its centre does not all see: divide it, or give it a rigid diaphragm"
+                f'{area.place}: area "{area.name}" is a shell of {len(corners)} corners with '
+                "a reentrant corner: divide it, or assign a rigid diaphragm"
             )
             building.account.fault(message)
             continue
@@ -185,7 +185,7 @@ def add_shells(frame: Frame, building: Building, mesh: Mesh) -> None:
     ops = opensees()
     if ops.getNodeTags():
         message = (
-            "walls and slabs are read through OpenSees, which holds another model: call "
+            "walls and slabs are read through OpenSees, which has another model: call "
             "openseespy.opensees.wipe() first, or import in a separate process"
         )
         raise ModelError(message)
@@ -306,7 +306,7 @@ def shells_of(frame: FrameData, building: Building) -> None:
         if within:
             message = (
                 f'a shell of area "{shell.area}" lies within the rigid diaphragm '
-                f'"{within[0]}", and {building.program} would take it for a slab: remove '
+                f'"{within[0]}", and {building.program} would import it as a slab: remove '
                 "the shell or the diaphragm"
             )
             raise ModelError(message)

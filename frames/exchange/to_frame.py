@@ -211,8 +211,8 @@ def _source(building: Building, options: Options) -> MassSource:
             dead = [name for name, p in building.patterns.items() if case_of(p.kind) == "D"]
             shares = dict.fromkeys(dead or ["DEAD"], 1.0) | dict.fromkeys(live, 0.25)
             building.account.fault(
-                f"{building.account.file} has no mass source: define it (Define > Mass Source) and "
-                "export the file again, or say what is mass by shares of load patterns, "
+                f"{building.account.file} has no mass source: define it (Define > Mass "
+                "Source) and export the file again, or set shares of load patterns as mass, "
                 f"{argument('mass', shares)}"
             )
         return building.mass_source or MassSource(elements=False, added=False, patterns={})

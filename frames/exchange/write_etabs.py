@@ -272,8 +272,8 @@ class EtabsWriter:
         for joint, (x, y, z, *turns) in building.masses.items():
             if x != y:
                 message = (
-                    f'masses of node "{joint}" differ between x and y, which the text of ETABS '
-                    "does not support: give one mass in plan"
+                    f'masses of node "{joint}" differ between x and y, which ETABS does not '
+                    "support: use equal masses in plan"
                 )
                 raise ModelError(message)
             found[joint].append(_words(written(dialect.MASS, (x, z, *turns), self.units)))
@@ -337,7 +337,9 @@ class EtabsWriter:
 def _quoted(value: Value) -> str:
     words = str(value)
     if '"' in words:
-        message = f"the name {words!r} has a quotation mark, which ETABS' text cannot hold"
+        message = (
+            f"the name {words!r} has a quotation mark, which ETABS does not support: remove it"
+        )
         raise ModelError(message)
     return f'"{words}"'
 

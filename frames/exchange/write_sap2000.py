@@ -47,7 +47,9 @@ def _text(value: Value) -> str:
         return repr(float(value))
     words = str(value)
     if '"' in words:
-        message = f"the name {words!r} has a quotation mark, which SAP2000's text cannot hold"
+        message = (
+            f"the name {words!r} has a quotation mark, which SAP2000 does not support: remove it"
+        )
         raise ModelError(message)
     return f'"{words}"' if not words or " " in words or "=" in words else words
 

@@ -110,12 +110,15 @@ def require_whole(plan: BuildingPlan) -> None:
     for part in plan.columns:
         _require_line(plan, part.line, f"a column of storey {part.storey}")
         if not 1 <= part.storey <= count:
-            msg = f'column on line "{part.line}": storey {part.storey} is none of the {count}'
+            msg = (
+                f'column on line "{part.line}": storey {part.storey} does not exist: use 1 to '
+                f"{count}"
+            )
             raise ModelError(msg)
     for level in range(count + 1):
         nodes = set(plan.at_level(level))
         if not nodes:
-            msg = f"no column reaches level {level}: each storey needs one"
+            msg = f"no column reaches level {level}: add one to each storey"
             raise ModelError(msg)
         ends = {end for wall in plan.walls_at(level) for end in (wall.start, wall.end)}
         for beam in (beam for beam in plan.beams if beam.level == level):
@@ -124,8 +127,8 @@ def require_whole(plan: BuildingPlan) -> None:
                 _require_line(plan, line, where)
                 if line not in nodes:
                     msg = (
-                        f'{where}: no column on line "{line}" has its head or its foot there: '
-                        "give the column that storey, or leave the beam out"
+                        f'{where}: no column on line "{line}" starts or ends there: add a '
+                        "column, or leave the beam out"
                     )
                     raise ModelError(msg)
                 ends.add(line)
@@ -134,13 +137,13 @@ def require_whole(plan: BuildingPlan) -> None:
         if hanging and level == 0:
             msg = (
                 f'column "{hanging[0]}" has no base beam, and a bearing does not restrain '
-                "rotation: give base beams between the feet of columns"
+                "rotation: add base beams between the feet of columns"
             )
             raise ModelError(msg)
         if hanging:
             msg = (
-                f'column "{hanging[0]}" begins at {level_name(level)}, and no beam reaches '
-                "it: let it begin on the base, or add the beams that carry it"
+                f'column "{hanging[0]}" begins at {level_name(level)}without a beam: start it at '
+                "the base, or add beams that carry it"
             )
             raise ModelError(msg)
         if plan.walls:  # which must not be over beams
@@ -154,9 +157,9 @@ def require_whole(plan: BuildingPlan) -> None:
             _require_line(plan, line, where)
             if line not in plan.at_level(level):
                 msg = f'{where}: no column on line "{line}" reaches {level_name(level)}'
-                raise ModelError(msg + ": leave the brace out there")
+                raise ModelError(msg + ": leave this brace out")
         if rod.start == rod.end:
-            msg = f"{where} would be a column: name two lines"
+            msg = f"{where} starts and ends on one line: name two lines"
             raise ModelError(msg)
 
 
@@ -171,7 +174,7 @@ def _require_walls(plan: BuildingPlan) -> None:
             raise ModelError(msg)
         pair = frozenset((wall.start, wall.end))
         if pair in pairs:
-            msg = f"{where} is there twice: keep one"
+            msg = f"{where} occurs twice: keep one"
             raise ModelError(msg)
         pairs.add(pair)
 
@@ -257,7 +260,7 @@ Bearings: TypeAlias = "LIRBearing | Mapping[tuple[int, int], LIRBearing]"
 def require_device(name: str, device: object) -> None:
     """Raise a TypeError unless `device` can be made into a bearing element."""
     if not isinstance(getattr(device, "height", None), (int, float)):
-        msg = f"{name} = {shown(device)} must be an LIRBearing, the device itself"
+        msg = f"{name} = {shown(device)} must be an LIRBearing"
         raise TypeError(msg)
 
 
@@ -270,9 +273,9 @@ def bearings_at(
     unused = [place for place in chosen if place not in places]
     if missing or unused:
         message = (
-            f"bearing: the grid has the places {places[0]} to {places[-1]}; without a bearing: "
-            f"{missing or 'none'}, not of the grid: {unused or 'none'}: give one LIRBearing for "
-            "all, or a mapping with every place (ix, iy)"
+            f"bearing: the grid has the places {places[0]} to {places[-1]}; missing: "
+            f"{missing or 'none'}; not in the grid: {unused or 'none'}. Pass one LIRBearing "
+            "for all, or a mapping with every place (ix, iy)"
         )
         raise ModelError(message)
     for place, device in chosen.items():
@@ -310,6 +313,6 @@ def pair(
         for number in values
     )
     if count and not (first.is_integer() and second.is_integer()):
-        message = f"{what} = {value!r} must be whole: give counts of 1 or more"
+        message = f"{what} = {value!r} must be integers: use counts of 1 or more"
         raise ModelError(message)
     return first, second

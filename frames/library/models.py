@@ -233,8 +233,8 @@ def tributary_masses(
         if not abs(tilt) * 0.5 * side < 1.0:
             bound = 2.0 * square / side**2
             message = (
-                f"moment_frame: eccentricity = {ratio:g} of the side would leave columns at one "
-                f"edge without mass: at most {bound:.3g} here (codes ask for 0.05)"
+                f"moment_frame: eccentricity = {ratio:g} of the side must be below {bound:.3g}, "
+                "or columns at one edge have no mass: reduce it (codes require 0.05)"
             )
             raise ModelError(message)
         shares.append(share)
@@ -245,8 +245,8 @@ def tributary_masses(
         found[ix, iy] = float(tributary * (1.0 + places[0][ix] + places[1][iy]))
     if min(found.values()) < 0.0:
         message = (
-            f"moment_frame: eccentricity = {eccentricity} together would leave a corner without "
-            "mass: give smaller ones, or one direction at a time"
+            f"moment_frame: eccentricity = {eccentricity} along both sides leaves a corner "
+            "without mass: reduce it, or use one direction at a time"
         )
         raise ModelError(message)
     return found
@@ -267,8 +267,8 @@ def add_floor_masses(
 def _mass_per_area(floor_mass: float | None, floor_load: float | None, area: float) -> float:
     if floor_mass is not None and floor_load is not None:
         message = (
-            f"moment_frame: floor_mass = {floor_mass!r} kg and floor_load = {floor_load!r} kg/m2 "
-            "both give the mass of the floors: give one of them"
+            f"moment_frame: floor_mass = {floor_mass!r} kg and floor_load = {floor_load!r} "
+            "kg/m2 both give the mass of the floors: use one of them"
         )
         raise ModelError(message)
     if floor_mass is not None:

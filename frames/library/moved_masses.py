@@ -61,7 +61,7 @@ def with_moved_masses(frame: F, shares: tuple[float, float], name: str | None = 
     ('base', 'floor-1', 'floor-2')
     """
     if PART in frame.superelements:
-        msg = f'the masses of the frame "{frame.name}" are moved already: give the frame as it was'
+        msg = f'the masses of the frame "{frame.name}" are moved already: pass the original frame'
         raise ModelError(msg)
     given = [
         require_between(
@@ -70,7 +70,7 @@ def with_moved_masses(frame: F, shares: tuple[float, float], name: str | None = 
             -MOST,
             MOST,
             "-",
-            remedy="0.05 is a twentieth of the side",
+            remedy="0.05 is 5 % of the side",
             error=ModelError,
         )
         for axis, share in zip("xy", shares, strict=True)
@@ -98,7 +98,10 @@ def _floors(frame: Frame, system: System) -> list[_Floor]:
     moving = np.diff(system.transform.indptr).reshape(-1, 6) > 0
     heavy = above & (system.node_mass[:, :2] > 0.0).any(axis=1) & moving[:, :2].any(axis=1)
     if not heavy.any():
-        msg = f'the frame "{frame.name}" has no mass above its bearings that moves in plan'
+        msg = (
+            f'the frame "{frame.name}" has no mass above its bearings that moves in plan: '
+            "add masses to its floors"
+        )
         raise ModelError(msg)
     heights = system.coordinates[:, 2]
     levels = {level.name: level.z for level in frame.levels}
@@ -124,8 +127,8 @@ def _move(system: System, floor: _Floor, axis: int, share: float, change: sparse
     side = float(floor.sides[axis])
     if side <= _ALONG * float(np.ptp(system.coordinates, axis=0).max()):
         msg = (
-            f'floor "{floor.name}" has no extent along {"xy"[axis]}: its masses cannot be moved '
-            "by a share of it"
+            f'floor "{floor.name}" has no extent along {"xy"[axis]}, so its masses cannot be '
+            "moved: put mass on nodes apart from each other"
         )
         raise ModelError(msg)
     distance = share * side
@@ -154,7 +157,7 @@ def _require_turning(system: System, floor: _Floor) -> None:
     if not turns.all():
         node = system.node_names[floor.nodes[int(np.argmin(turns))]]
         msg = (
-            f'floor "{floor.name}" cannot rotate about the vertical (rz of its node '
-            f'"{node}" is fixed), so moved masses change nothing there'
+            f'floor "{floor.name}" cannot rotate about the vertical (rz of its node "{node}" '
+            "is fixed), so moved masses have no effect: free rz"
         )
         raise ModelError(msg)

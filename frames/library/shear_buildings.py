@@ -145,7 +145,7 @@ def shear_building(
     base = require_positive(
         "shear_building: base_mass [kg]",
         base,
-        remedy="give the mass of the base slab",
+        remedy="use the mass of the base slab",
         error=ModelError,
     )
     frame = Frame(name, gravity)
@@ -210,8 +210,8 @@ def _laws(given: StoreyLaws | None, stiffness: list[float]) -> list[Bilinear | B
     laws = [given(k) for k in stiffness] if callable(given) else list(given)
     if len(laws) != len(stiffness):
         message = (
-            f"shear_building: storey_law has {len(laws)} laws for {len(stiffness)} storeys: give "
-            "one each, or a function of the storey's stiffness"
+            f"shear_building: storey_law has {len(laws)} laws for {len(stiffness)} storeys: "
+            "pass one for each, or a function of the storey's stiffness"
         )
         raise ModelError(message)
     for k, law in enumerate(laws, start=1):
@@ -274,7 +274,7 @@ def _offset(grid: GridPlan | None, eccentricity: tuple[float, float]) -> tuple[f
             share,
             -0.5,
             0.5,
-            remedy="0.05 is a twentieth of the side",
+            remedy="0.05 is 5 % of the side",
             error=ModelError,
         )
         for share in eccentricity
@@ -283,8 +283,8 @@ def _offset(grid: GridPlan | None, eccentricity: tuple[float, float]) -> tuple[f
         return shares[0] * grid.side[0], shares[1] * grid.side[1]
     if any(shares):
         message = (
-            f"shear_building: eccentricity = {eccentricity} without a plan: its floors do not "
-            "rotate, give plan=(bays, bay_width)"
+            f"shear_building: eccentricity = {eccentricity} needs a plan, because floors "
+            "without a plan do not rotate: set plan=(bays, bay_width)"
         )
         raise ModelError(message)
     return 0.0, 0.0
@@ -354,8 +354,8 @@ def _storeys(
         sizes["storeys"] = int(pair(storeys, "shear_building: storeys", count=True)[0])
     if len(set(sizes.values())) > 1 or 0 in sizes.values():
         message = (
-            f"shear_building: the numbers of storeys differ or are 0: {sizes}: "
-            "give sequences of one length, or single numbers and storeys=n"
+            f"shear_building: the numbers of storeys differ or are 0 ({sizes}): pass "
+            "sequences of one length, or single numbers and storeys=n"
         )
         raise ModelError(message)
     count = next(iter(sizes.values()), 1)

@@ -44,8 +44,8 @@ def local_axes(start: FloatArray, end: FloatArray, up: FloatArray) -> tuple[Floa
     if (length <= 0.0).any():
         index = int(np.argmin(length))
         message = (
-            f"member {index} has length 0 m, it must be greater than 0: "
-            "its ends coincide, join them by a spring instead"
+            f"member {index} has length 0 m, it must be greater than 0: join coincident "
+            "nodes by a spring instead"
         )
         raise ModelError(message)
     x_axis = along / length[:, None]
@@ -55,7 +55,7 @@ def local_axes(start: FloatArray, end: FloatArray, up: FloatArray) -> tuple[Floa
         index = int(np.argmin(sine))
         message = (
             f"up = {up[index].tolist()} of member {index} is zero or parallel to its axis "
-            f"{x_axis[index].tolist()}: give a vector at an angle to the member"
+            f"{x_axis[index].tolist()}: use a vector at an angle to the member"
         )
         raise ModelError(message)
     y_axis = side / np.linalg.norm(side, axis=1)[:, None]
@@ -134,7 +134,7 @@ def _require_plane(
                 names = [f'from "{edge[0]}" to "{edge[1]}"' for edge in (first, second)]
                 msg = (
                     f"{where}: the beams {names[0]} and {names[1]} overlap or cross between their "
-                    "ends: let beams go from column line to column line, one after the other"
+                    "ends: divide them at column lines"
                 )
                 raise ModelError(msg)
 

@@ -288,8 +288,7 @@ class FrameBuilder(FrameLoader):
         """
         kinds = (RayleighDamping, ModalDamping, type(None))
         remedy = (
-            "RayleighDamping, ModalDamping or None: "
-            "write ModalDamping(0.02) for two per cent in every mode"
+            "RayleighDamping, ModalDamping or None: write ModalDamping(0.02) for 2 % in every mode"
         )
         require_type("damping", damping, kinds, remedy)
         self._damping = damping

@@ -194,7 +194,7 @@ def bearing_rocking_stiffness(bearing: LIRBearing) -> float:
 def bearing_height(name: str, bearing: LIRBearing) -> float:
     """Check that a device can be placed, and return its height."""
     if isinstance(bearing, type):
-        message = f'bearing "{name}" is the class {bearing.__name__}: pass an instance of it'
+        message = f'bearing "{name}" is the class {bearing.__name__}: pass an instance'
         raise TypeError(message)
     missing = [word for word in ("axial_stiffness", "height") if not hasattr(bearing, word)]
     if missing:

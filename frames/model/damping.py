@@ -47,8 +47,8 @@ class RayleighDamping:
         given: object = self.periods
         if not isinstance(given, Sequence) or len(given) != 2:
             message = (
-                f"RayleighDamping.periods = {given!r} must be two periods in seconds: "
-                "for instance the first and the third period of the structure"
+                f"RayleighDamping.periods = {given!r} must be two periods in s: use the first "
+                "and the third of the structure"
             )
             raise ModelError(message)
         first, second = (
@@ -57,8 +57,8 @@ class RayleighDamping:
         )
         if first == second:
             message = (
-                f"RayleighDamping.periods = ({first:g}, {second:g}) s must differ: "
-                "the two coefficients need two periods"
+                f"RayleighDamping.periods = ({first:g}, {second:g}) s must differ: use two "
+                "different periods"
             )
             raise ModelError(message)
         object.__setattr__(self, "periods", (first, second))
@@ -91,7 +91,10 @@ class ModalDamping:
         """Check every number."""
         if isinstance(self.ratio, Sequence):
             if not self.ratio:
-                message = "ModalDamping.ratio is empty: give one ratio, or one for each first mode"
+                message = (
+                    "ModalDamping.ratio is empty: pass one ratio, or one for each of the first "
+                    "modes"
+                )
                 raise ModelError(message)
             checked = tuple(_ratio(value, "ModalDamping.ratio") for value in self.ratio)
             object.__setattr__(self, "ratio", checked)
@@ -109,6 +112,4 @@ Damping: TypeAlias = RayleighDamping | ModalDamping
 
 
 def _ratio(value: float, what: str) -> float:
-    return require_between(
-        what, value, 0.0, 1.0, remedy="give 0.02 for two per cent", error=ModelError
-    )
+    return require_between(what, value, 0.0, 1.0, remedy="use 0.02 for 2 %", error=ModelError)

@@ -121,9 +121,9 @@ def _chain(
                 + ")"
             )
             message = (
-                f'floor load "{name}": along its edge from "{edge[0]}" to "{edge[1]}" {what} from '
-                f'node "{here}": each edge that carries needs one chain of members from corner to '
-                'corner; add it, or give the direction of a one-way panel: span="x"'
+                f'floor load "{name}": along its edge from "{edge[0]}" to "{edge[1]}" {what} '
+                f'from node "{here}": add one chain of members from corner to corner, or set the '
+                'direction of a one-way panel, span="x"'
             )
             raise ModelError(message)
         ((member, here, along),) = onward
@@ -200,8 +200,8 @@ def turning(corners: FloatArray, owner: str) -> float:
     turns_back = np.abs(angles) > math.pi - 1e-6
     if (side * sines < -1e-6).any() or turns_back.any() or abs(angles.sum()) > 2.0 * math.pi + 1e-3:
         message = (
-            f"{owner}: the corners must form a convex outline in order: list them around "
-            "the panel, and split a panel with a reentrant corner"
+            f"{owner}: the corners must form a convex outline: list them in order around the "
+            "panel, and split a panel with a reentrant corner"
         )
         raise ModelError(message)
     return side

@@ -39,7 +39,7 @@ def require_two_nodes(nodes: Nodes, i: str, j: str, owner: str) -> None:
     for node in (i, j):
         known_name(node, nodes, "node")
     if i == j:
-        message = f'{owner} starts and ends at node "{i}": give two different nodes'
+        message = f'{owner} starts and ends at node "{i}": name two different nodes'
         raise ModelError(message)
 
 
@@ -54,7 +54,7 @@ def node_list(nodes: Nodes, given: Sequence[str], owner: str, least: int) -> tup
         message = f'{owner} lists node "{repeated[0]}" more than once: list each node once'
         raise ModelError(message)
     if len(chosen) < least:
-        message = f"{owner} has {len(chosen)} nodes, it needs {least} or more: name them"
+        message = f"{owner} has {len(chosen)} nodes: name at least {least}"
         raise ModelError(message)
     return chosen
 
@@ -66,8 +66,8 @@ def one_elevation(nodes: Nodes, chosen: tuple[str, ...], owner: str) -> float:
     if high.z - low.z > SAME_PLACE:
         message = (
             f'{owner} is not horizontal: node "{low.name}" is at z = {low.z:g} m, node '
-            f'"{high.name}" at z = {high.z:g} m, they may differ by {SAME_PLACE:g} m: '
-            "split it, or put its nodes at one elevation"
+            f'"{high.name}" at z = {high.z:g} m (at most {SAME_PLACE:g} m apart): split it, '
+            "or put its nodes at one elevation"
         )
         raise ModelError(message)
     return low.z
@@ -94,8 +94,8 @@ def member_up(
         raise ModelError(message)
     if sum(map(mul, map(sub, end, start), map(sub, second, first))) < 0.0:
         message = (
-            f'member "{name}" from {between} runs backwards, its ends overlap by {length:g} m: '
-            "give shorter offsets, as vectors from node to end in global axes [m]"
+            f'member "{name}" from {between} has offsets that overlap by {length:g} m: '
+            "shorten them (vectors from node to end in global axes [m])"
         )
         raise ModelError(message)
     if up is None:  # the default is never along the member
@@ -119,8 +119,8 @@ def member_offsets(
     unknown = [end for end in given if end not in {"i", "j"}]
     if unknown:
         message = (
-            f'offsets of member "{name}": {unknown[0]!r} is not an end: give "i" and "j" '
-            f'with vectors from node to end [m], such as {{"j": (-0.25, 0, 0)}}'
+            f'offsets of member "{name}": {unknown[0]!r} is not an end: use "i" and "j" with '
+            'vectors from node to end [m], such as {"j": (-0.25, 0, 0)}'
         )
         raise ModelError(message)
     found = []
@@ -163,8 +163,8 @@ def member_span(nodes: Nodes, member: Member, a: float, b: float | None) -> tupl
     slack = 1e-9 * length
     if not -slack <= start < end <= length + slack:
         message = (
-            f"{owner} from a = {start:g} m to b = {end:g} m must begin before it ends, on the "
-            f"member, which is {length:g} m long between its ends: give distances from its end i"
+            f"{owner} from a = {start:g} m to b = {end:g} m must begin before it ends, "
+            f"within the member's {length:g} m: give distances from its end i"
         )
         raise ModelError(message)
     return max(start, 0.0), min(end, length)
@@ -176,8 +176,8 @@ def refuse_shared(name: str, nodes: tuple[str, ...], others: Mapping[str, Diaphr
         shared = sorted(set(nodes) & set(other.nodes))
         if shared:
             message = (
-                f'node "{shared[0]}" of diaphragm "{name}" belongs to diaphragm '
-                f'"{other.name}" already: a node may be in one only, merge the two'
+                f'node "{shared[0]}" of diaphragm "{name}" is already in diaphragm '
+                f'"{other.name}": merge the two'
             )
             raise ModelError(message)
 
@@ -195,8 +195,8 @@ def require_bearing_place(nodes: Nodes, name: str, i: str, j: str, bearing: LIRB
     rise = above.z - below.z
     if offset > SAME_PLACE:
         message = (
-            f'bearing "{name}": node "{j}" is {offset:g} m aside of the vertical through '
-            f'node "{i}", at most {SAME_PLACE:g} m is allowed: give both the same x and y'
+            f'bearing "{name}": node "{j}" is {offset:g} m off the vertical through node '
+            f'"{i}" (at most {SAME_PLACE:g} m): use the same x and y for both'
         )
         raise ModelError(message)
     if not fits(rise, height):
@@ -227,16 +227,16 @@ def member_releases(
     wrong = [part for parts in given.values() for part in parts if part not in RELEASABLE]
     if unknown or wrong:
         message = (
-            f'releases of member "{name}": {unknown[0] if unknown else wrong[0]!r} is none; give '
-            f'ends "i" and "j" with moments of {", ".join(RELEASABLE)}, such as '
-            '{"j": ("My", "Mz")}'
+            f'releases of member "{name}": {unknown[0] if unknown else wrong[0]!r} is not '
+            f'supported: use ends "i" and "j" with moments of {", ".join(RELEASABLE)}, such '
+            'as {"j": ("My", "Mz")}'
         )
         raise ModelError(message)
     first, second = (tuple(part for part in RELEASABLE if part in given.get(e, ())) for e in "ij")
     if "T" in first and "T" in second:
         message = (
-            f'releases of member "{name}": torsion at both ends would let it spin about itself: '
-            'release "T" at one end at most'
+            f'releases of member "{name}": "T" at both ends leaves the rotation about its '
+            "axis free: release it at one end at most"
         )
         raise ModelError(message)
     return first, second

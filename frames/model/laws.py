@@ -376,7 +376,7 @@ class PlasticHinge(_Checked):
         """Check the numbers, and that they go together."""
         super().__post_init__()
         if self.moment_y == self.moment_z == math.inf:
-            msg = "PlasticHinge: moment_y and moment_z are both infinite: give a plastic moment"
+            msg = "PlasticHinge: moment_y and moment_z are both infinite: set at least one of them"
             raise ModelError(msg)
         if abs(self.axial_centre) >= self.axial:
             msg = (
@@ -385,7 +385,10 @@ class PlasticHinge(_Checked):
             )
             raise ModelError(msg)
         if self.axial == math.inf and abs(self.axial_centre) > 0.0:
-            msg = "PlasticHinge: axial_centre without axial: give the axial force without moment"
+            msg = (
+                "PlasticHinge: axial_centre needs axial: set axial to the axial strength "
+                "without moment"
+            )
             raise ModelError(msg)
 
 

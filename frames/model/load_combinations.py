@@ -69,8 +69,8 @@ def combination(frame: FrameData, factors: Mapping[str, float], weight: str) -> 
     if lacking:
         what = "what masses weigh" if lacking[0] == weight else "loads of the frame"
         message = (
-            f'combined: load case "{lacking[0]}" ({what}) has no factor: give one (0 leaves '
-            f"it out). Factors were given for {', '.join(found) or 'no case'}"
+            f'combined: load case "{lacking[0]}" ({what}) has no factor: set one (0 leaves '
+            f"it out). Cases with factors: {', '.join(found) or 'no case'}"
         )
         raise ModelError(message)
     return found
@@ -99,11 +99,16 @@ def factor_all(frame: FrameData, factors: Mapping[str, float], weight: str) -> N
     """Multiply permanent loads and masses of a frame, so that all that weighs is mass."""
     share = factors[weight]
     if share <= 0.0:
-        message = f'combined: masses by the factor {share:g} of "{weight}", it must be positive'
+        message = (
+            f'combined: the factor {share:g} of "{weight}", which also scales masses, must '
+            "be positive: raise it"
+        )
         raise ModelError(message)
     if frame._superelements or frame._weightless:
         what = "superelements" if frame._superelements else "masses that do not weigh"
-        message = f"combined(masses=True): the frame has {what}, which are in no load case"
+        message = (
+            f"combined(masses=True): the frame has {what} outside the load cases: use masses=False"
+        )
         raise ModelError(message)
     _multiply(frame, factors)
     frame._mass_source = dict.fromkeys(frame.load_cases, 1.0)
@@ -208,8 +213,8 @@ def load_masses(frame: FrameData, applied: AppliedLoads) -> dict[str, float]:
     for node, mass in found.items():
         if mass < -least:
             message = (
-                f'the permanent loads at node "{node}" that make mass pull upwards, {mass:g} kg: '
-                "leave their case out of the mass source, or turn their sign (down is -z)"
+                f'the mass from loads at node "{node}" is negative, {mass:g} kg: leave their '
+                "case out of the mass source, or change their sign (down is -z)"
             )
             raise ModelError(message)
     return {node: mass for node, mass in found.items() if mass > 0.0}

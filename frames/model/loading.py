@@ -55,13 +55,13 @@ class FrameLoader(FrameData):
         """
         known_name(node, self._nodes, "node")
         number = require_non_negative(
-            f'mass [kg] at node "{node}"', mass, remedy="masses add up, give kg", error=ModelError
+            f'mass [kg] at node "{node}"', mass, remedy="give kg; masses add up", error=ModelError
         )
         rotary = require_vector(f'inertia [kg m2] at node "{node}"', inertia, 3, error=ModelError)
         if (rotary < 0.0).any():
             message = (
-                f'inertia [kg m2] at node "{node}" = {rotary.tolist()} must be 0 or greater: '
-                "give the moments of inertia about global x, y, z"
+                f'inertia [kg m2] at node "{node}" = {rotary.tolist()} must be at least 0: give '
+                "moments of inertia about global x, y, z"
             )
             raise ModelError(message)
         given = np.concatenate([np.full(3, number), rotary])
@@ -97,12 +97,12 @@ class FrameLoader(FrameData):
         for case, share in dict(shares or {}).items():
             new_name(case, (), "load case")
             found[case] = require_non_negative(
-                f'share of case "{case}" [-]', share, remedy="1 is all of it", error=ModelError
+                f'share of case "{case}" [-]', share, remedy="1 is the full load", error=ModelError
             )
         if found and self.gravity <= 0.0:
             message = (
-                f"gravity = {self.gravity:g} m/s2 makes no mass of a load: "
-                'give Frame(name, gravity=9.80665), or masses by "add_mass"'
+                f"gravity = {self.gravity:g} m/s2 cannot convert loads to mass: use Frame(name, "
+                "gravity=9.80665), or add_mass"
             )
             raise ModelError(message)
         self._mass_source = found
@@ -244,7 +244,10 @@ class FrameLoader(FrameData):
         if mass is not None:
             share = require_non_negative(f'mass [-] of floor load "{name}"', mass, error=ModelError)
             if share > 0.0 and self.gravity <= 0.0:
-                message = f'mass of floor load "{name}" needs gravity, which is 0 m/s2 here'
+                message = (
+                    f'mass of floor load "{name}" needs gravity above 0 m/s2: set gravity of the '
+                    "Frame"
+                )
                 raise ModelError(message)
         corners, direction = floor_panel(self._nodes, name, nodes, span)
         load = FloorLoad(name, corners, float(q), direction, share, new_name(case, (), "load case"))

@@ -23,7 +23,7 @@ LARGEST_SIDE = 100.0
 
 def dimensions(where: str, **values: float) -> tuple[float, ...]:
     """Return outer dimensions [m] once they are positive and possible."""
-    remedy = "give the outer dimensions in metres"
+    remedy = "give the outer dimensions in m"
     for name, value in values.items():
         if (
             require_positive(f"{where}: {name}", value, remedy=remedy, error=ModelError)
@@ -84,9 +84,9 @@ def i_shape_constants(
     )
     if 2.0 * tf >= d or tw > b:
         message = (
-            f"Section.i_shape: flange_thickness = {tf:g} m must be less than half the depth, "
-            f"{d / 2.0:g} m, and web_thickness = {tw:g} m not more than flange_width = "
-            f"{b:g} m: check the order (depth, flange_width, flange_thickness, web_thickness)"
+            f"Section.i_shape: flange_thickness = {tf:g} m must be below half the depth, "
+            f"{d / 2.0:g} m, web_thickness = {tw:g} m at most flange_width = {b:g} m: check "
+            "the order of the arguments"
         )
         raise ModelError(message)
     web = d - 2.0 * tf
@@ -103,8 +103,8 @@ def i_shape_constants(
 SOFTEST, LARGEST_AREA = 1e6, 500.0
 """Elastic modulus [Pa] below, and area [m2] above which no member is."""
 
-_NEEDED = "a member needs every stiffness; give SI units"
-_SHEARED = "give m2, or leave it out (infinity) to neglect the shear deformation"
+_NEEDED = "use SI units"
+_SHEARED = "give m2, or leave it out to neglect shear deformation"
 _INERTIA = number("m4", "(0, inf)", remedy=_NEEDED)
 _MODULUS = number("Pa", "(0, inf)", remedy=_NEEDED)
 _SHEAR_AREA = number("m2", "(0, inf]", remedy=_SHEARED)
@@ -238,9 +238,9 @@ def rolled_i_constants(
     web = d - 2.0 * tf
     if 2.0 * r >= web or tw + 2.0 * r > b:
         message = (
-            f"{where}: flanges 2 x {tf:g} m and fillets 2 x {r:g} m must leave a part of the depth "
-            f"{d:g} m, web {tw:g} m and fillets not exceed flange_width = {b:g} m: check the order "
-            "(depth, flange_width, flange_thickness, web_thickness, radius)"
+            f"{where}: flanges 2 x {tf:g} m and fillets 2 x {r:g} m exceed the depth {d:g} "
+            f"m, or web {tw:g} m and fillets the flange_width = {b:g} m: check the order of "
+            "the arguments"
         )
         raise ModelError(message)
     corner = _FILLET_AREA * r**2
@@ -265,8 +265,8 @@ def catalogue_dimensions(name: str) -> tuple[float, float, float, float, float]:
         import steel_sections
     except ImportError as cause:
         message = (
-            'Section.catalogue reads the tables of steel-sections: pip install "lir-dcfp[sections]"'
-            ", or give the dimensions to Section.rolled_i"
+            'Section.catalogue needs steel-sections: pip install "lir-dcfp[sections]", or '
+            "use Section.rolled_i with dimensions"
         )
         raise ImportError(message) from cause
     wanted = re.sub(r"[^A-Z0-9]", "", str(name).upper())
@@ -279,7 +279,7 @@ def catalogue_dimensions(name: str) -> tuple[float, float, float, float, float]:
     if wanted not in known:
         message = (
             f'there is no rolled shape "{name}" among {", ".join(SERIES)} '
-            f"({likely(wanted, known)}): for another one give Section.rolled_i its dimensions"
+            f"({likely(wanted, known)}): for another one use Section.rolled_i"
         )
         raise ModelError(message)
     row = known[wanted]

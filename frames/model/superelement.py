@@ -131,7 +131,9 @@ def element_table(
     taken = {*members}
     for name in names:
         if name in taken:
-            message = f'"{name}" is the name of a member and of an element, or of two elements'
+            message = (
+                f'"{name}" names a member and an element, or two elements: choose different names'
+            )
             raise ModelError(message)
         taken.add(name)
     ends = [(index[i], index[j]) for part in chosen for i, j in part.nodes]
@@ -164,7 +166,8 @@ def require_elements(elements: PartElements, nodes: tuple[str, ...], owner: str)
         for node in ends:
             if node not in known:
                 message = (
-                    f'element "{name}" of {owner} ends at "{node}", which is not one of its nodes'
+                    f'element "{name}" of {owner} ends at "{node}", which is not in its nodes: add '
+                    "it to them"
                 )
                 raise ModelError(message)
     return elements

@@ -68,8 +68,8 @@ def read_columns(path: PathLike, column: int | None, layout: ColumnLayout) -> Ac
         return _one_history(name, Path(path), column, layout, factor)
     if (layout.time is None) == (layout.dt is None):
         msg = (
-            f"{name}: time = {layout.time} and dt = {layout.dt}: give one of them, the column of "
-            "the times or the time step in s"
+            f"{name}: time = {layout.time} and dt = {layout.dt}: set one of them, the column "
+            "of times or the time step in s"
         )
         raise MotionError(msg)
     table = _table(name, Path(path), layout)
@@ -77,7 +77,7 @@ def read_columns(path: PathLike, column: int | None, layout: ColumnLayout) -> Ac
         if index is not None and not 0 <= index < table.shape[1]:
             msg = (
                 f"{name}: {what} = {index} must be at least 0 and below {table.shape[1]}, the "
-                "number of columns: they are counted from 0"
+                "number of columns: count them from 0"
             )
             raise MotionError(msg)
     if column is None:
@@ -92,11 +92,11 @@ def _one_history(
 ) -> AccelerationTrace:
     """Return the history of a file row by row, or in pairs of time and value."""
     pairs = layout.order == "pairs"
-    wanted = "neither time nor dt: the pairs hold the times" if pairs else "dt, and no time"
+    wanted = "neither time nor dt" if pairs else "dt and no time"
     if column is not None or layout.time is not None or (layout.dt is None) != pairs:
         msg = (
-            f"{name}: order = {layout.order!r} with column = {column}, time = {layout.time}, dt = "
-            f"{layout.dt}: the whole file is one component, give the file alone (x=path) with "
+            f"{name}: order = {layout.order!r} with column = {column}, time = {layout.time}, "
+            f"dt = {layout.dt}: the file is one component, pass it alone (x=path) with "
             f"{wanted}"
         )
         raise MotionError(msg)
@@ -106,9 +106,8 @@ def _one_history(
     if pairs:
         if len(values) % 2:
             msg = (
-                f"{name} holds {len(values)} numbers, which do not form pairs of time and "
-                f"value: check line {lines[-1][0]}, its last one, or skip a header with "
-                "skip="
+                f"{name} has {len(values)} numbers, which do not form pairs of time and value: "
+                f"check line {lines[-1][0]}, the last, or skip a header (skip=)"
             )
             raise MotionError(msg)
         return AccelerationTrace(values[1::2] * factor, even_step(name, values[::2]))
@@ -123,7 +122,7 @@ def source_file(axis: str, source: Source, common: PathLike | None) -> tuple[Pat
     if not isinstance(source, int):
         return source, None
     if common is None:
-        msg = f"{axis} = {source} is a column of no file: give the file as path"
+        msg = f"{axis} = {source} is a column, but no file is given: set path"
         raise MotionError(msg)
     return common, source
 
@@ -181,7 +180,7 @@ def _only_column(name: str, table: FloatArray, time: int | None) -> int:
     told = ""
     if time is None:
         seem = "the numbers seem to be" if likely_order(table) == "rows" else "if they are"
-        told = f'; {seem} one history, row by row, read it with order="rows"'
+        told = f'; {seem} one history, row by row, use order="rows"'
     msg = (
         f"{name} has {table.shape[1]} columns: name the one with the accelerations, (path, "
         f"column){told}"
@@ -199,9 +198,9 @@ def _doubt_columns(name: str, table: FloatArray, layout: ColumnLayout) -> None:
         again = (spread < TIME_TOLERANCE * step) & (start > 0.1 * step) & (start < 0.95 * step)
         if again.any():
             msg = (
-                f"{name}: column {int(np.argmax(again))} holds times that lie between those of "
-                f"column {layout.time}: it has pairs of time and value, several a line; read it "
-                'with order="pairs", without time'
+                f"{name}: column {int(np.argmax(again))} has times between those of column "
+                f"{layout.time}, so each line has several pairs of time and value: use "
+                'order="pairs", without time'
             )
             raise MotionError(msg)
     others = np.delete(table, [] if layout.time is None else [layout.time], axis=1)
@@ -227,14 +226,14 @@ def _doubt_rows(name: str, rows: list[list[float]]) -> None:
     steps = np.diff(table[:, 0])
     if (steps > 0.0).all() and np.ptp(steps) < TIME_TOLERANCE * steps.mean():
         msg = (
-            f"{name}: column 0 holds even times, {table[0, 0]:g}, {table[1, 0]:g}, ...: it is a "
-            'table; read it with order="columns", time=0 and the columns of the components'
+            f"{name}: column 0 holds even times, {table[0, 0]:g}, {table[1, 0]:g}, ..., so "
+            'it is a table: use order="columns", time=0 and the columns of the components'
         )
         raise MotionError(msg)
     if likely_order(table) == "columns":
         msg = worded(
-            "{name}: the {size} numbers of its rows seem to be {size} components: read a column of "
-            'them with order="columns"',
+            "{name}: the {size} numbers in a row seem to be {size} components: read one "
+            'column with order="columns"',
             name=name,
             size=size,
         )
@@ -248,9 +247,9 @@ def even_step(name: str, times: FloatArray) -> float:
     worst = int(np.argmax(off))
     if not step > 0.0 or not off[worst] <= TIME_TOLERANCE * step:
         msg = (
-            f"{name}: the times are not evenly spaced: sample {worst} at t = {times[worst]:g} s "
-            f"lies {off[worst]:.3g} s off a step of {step:.6g} s (at most "
-            f"{TIME_TOLERANCE:.0%} of the step): resample the record, or name the column of times"
+            f"{name}: the time step is not constant: sample {worst} at t = {times[worst]:g} "
+            f"s is {off[worst]:.3g} s off a step of {step:.6g} s (at most "
+            f"{TIME_TOLERANCE:.0%} of it). Resample the record, or check the column of times"
         )
         raise MotionError(msg)
     return float(f"{step:.9g}")  # the digits that printed times carry

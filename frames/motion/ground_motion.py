@@ -268,7 +268,7 @@ class GroundMotion(RecordedMotion):
         """
         given = self._given()
         if component not in given:
-            msg = f"component = {component!r} must be one of {', '.join(given)}, those given"
+            msg = f"component = {component!r}: choose one of {', '.join(given)}"
             raise MotionError(msg)
         data = response_spectrum(given[component], self.dt, periods, damping)
         return data.assign_attrs(motion=self.name, component=component)

@@ -71,8 +71,8 @@ def text_lines(path: Path) -> list[str]:
         return raw.decode("utf-16").splitlines()
     if b"\0" in raw[:4096]:
         msg = (
-            f"{path.name} is binary, not text: export the record as text, or read it with the "
-            "program of its maker and give the samples as GroundMotion(x=..., dt=...)"
+            f"{path.name} is binary, not text: export the record as text, or pass its "
+            "samples, GroundMotion(x=..., dt=...)"
         )
         raise MotionError(msg)
     return raw.removeprefix(b"\xef\xbb\xbf").decode("latin-1").splitlines()
@@ -118,9 +118,9 @@ def table_of(name: str, lines: Lines, writing: Writing) -> FloatArray:
     if odd is not None:
         where, last = lines[odd][0], odd == len(rows) - 1
         remedy = (
-            'a record row by row ends so: read it with order="rows"'
+            'if it is a record row by row, use order="rows"'
             if last and 0 < len(rows[odd]) < size
-            else f"repair line {where}, or leave lines of a header out with skip"
+            else f"repair line {where}, or skip the header (skip=)"
         )
         msg = (
             f"{name}, line {where} holds {len(rows[odd])} numbers, the lines before it {size}: "
@@ -138,28 +138,24 @@ def _cause(name: str, lines: Lines, at: int, where: int, writing: Writing) -> st
     head = f"{name}, line {where}: {bad[:40]!r}"
     if writing.width is not None:
         return (
-            f"{head} is not a number: width = {writing.width} does not match this line. "
-            "Count the characters of a number with its leading blanks, or skip the header "
-            "with skip="
+            f"{head} is not a number: set width = {writing.width} to the characters of a "
+            "number with its leading blanks, or skip the header (skip=)"
         )
     if _TOUCHING.fullmatch(bad):
         found = _fitting_width([text for _, text in lines[at : at + 20]])
-        give = f"width={found}" if found else "their width, width=..."
-        return f"{head} are numbers that touch: read them by their width, {give}"
+        give = f"width={found}" if found else "width=..."
+        return f"{head} are numbers without separators: set their width, {give}"
     if _COMMA.fullmatch(bad) and writing.decimal == ".":
-        return f'{head} has a decimal comma: read it with decimal=","'
+        return f'{head} has a decimal comma: set decimal=","'
     if "," in bad and all(_is_number(part.strip(), Writing()) for part in bad.split(",") if part):
-        return f'{head} are numbers separated by commas: read them with delimiter=","'
+        return f'{head} are numbers separated by commas: set delimiter=","'
     starts = next((k for k, (_, text) in enumerate(lines) if _numeric(text, writing)), None)
     if at == 0 and starts is not None and re.search(r"[A-Za-z]", line):
         return (
-            f"{head} is text, the numbers begin {starts} lines later: leave the header out, "
+            f"{head} is text, the numbers begin {starts} lines later: skip the header, "
             f"skip={lines[starts][0] - 1}"
         )
-    return (
-        f"{head} is not a number: remove the line if it is a title or an end mark, repair it "
-        "otherwise"
-    )
+    return f"{head} is not a number: repair the line, or remove it if it is a title or an end mark"
 
 
 def _is_number(text: str, writing: Writing) -> bool:

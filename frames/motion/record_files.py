@@ -61,9 +61,8 @@ def read_record(path: PathLike) -> list[Component]:
     if form is None:
         known = "; ".join(each.name for each in FORMATS)
         msg = (
-            f"{name} is in no format that is read by name (PEER AT2; {known}): read its numbers "
-            'with from_columns(x=path, order="rows", skip=<lines of the header>, dt=<step in s>, '
-            'unit="cm/s2")'
+            f"{name} is in no known format (PEER AT2; {known}): use from_columns(x=path, "
+            'order="rows", skip=<lines of the header>, dt=<step in s>, unit="cm/s2")'
         )
         raise MotionError(msg)
     starts = [k for k, line in enumerate(lines) if form.parts and _found(form.parts, line)]
@@ -86,8 +85,8 @@ def _components(name: str, form: Format, lines: list[tuple[int, str]]) -> list[C
         at = next((k for k, (_, line) in enumerate(lines) if _found(str(size), line)), None)
         if at is None:
             msg = (
-                f"{name}: {form.name}: line {lines[0][0]} begins a component, and no line after it "
-                "its numbers: fetch the file again"
+                f"{name}: {form.name}: line {lines[0][0]} begins a component without numbers: "
+                "download the file again"
             )
             raise MotionError(msg)
         size = at + 1 + form.after
@@ -103,8 +102,8 @@ def _components(name: str, form: Format, lines: list[tuple[int, str]]) -> list[C
         count = round(known["length"] / known["step"])
     if count is None or ("step" not in known and "pairs" not in form.order and known["pairs"] < 1):
         msg = (
-            f"{name}: the header of {form.name} names no number of samples or no time step: fetch "
-            "the file again, or read its numbers with from_columns"
+            f"{name}: the header of {form.name} has no number of samples or no time step: "
+            "download the file again, or use from_columns"
         )
         raise MotionError(msg)
     width = int(known.get("width", form.width)) or None
@@ -163,7 +162,7 @@ def _factor(name: str, form: Format, text: str) -> float:
     """Return the size of the numbers' unit [m/s2]."""
     match = _found(form.unit, text.splitlines()[-1]) or _found(form.unit, text)
     if match is None and not form.fixed_unit:
-        msg = f"{name}: the header of {form.name} names no unit: fetch the file again"
+        msg = f"{name}: the header of {form.name} has no unit: download the file again"
         raise MotionError(msg)
     if match is not None and match.lastindex == 2:
         return 0.01 * float(match[1]) / float(match[2])
@@ -194,8 +193,8 @@ def _values(
     more = len(flat) - size if form.whole else 0
     if len(flat) < size or more > max(PAD_SAMPLES * columns, PAD_PART * size):
         msg = (
-            f"{name}: {form.name}: the header names {count} samples, and the file holds "
-            f"{len(flat) // (2 if pairs else columns)}: fetch the file again"
+            f"{name}: {form.name}: the header states {count} samples, but the file has "
+            f"{len(flat) // (2 if pairs else columns)}: download the file again"
         )
         raise MotionError(msg)
     if pairs:
@@ -203,8 +202,8 @@ def _values(
             step = even_step(name, flat[0:size:2])
         except MotionError as cause:
             msg = (
-                f"{name}: {form.name}: an uncorrected record with uneven times ({cause}): give "
-                "the corrected record (volume 2), which has a time step"
+                f"{name}: {form.name}: an uncorrected record with uneven times ({cause}): use "
+                "the corrected record (volume 2)"
             )
             raise MotionError(msg) from cause
         return flat[1:size:2, None], step
@@ -212,9 +211,9 @@ def _values(
     length, lasts = known.get("length", 0.0), step * count
     if length > 0.0 and abs(lasts - length) > max(1.0, _LENGTH_TOLERANCE * length):
         msg = (
-            f"{name}: {form.name}: the header names {length:g} s, and {count} samples at its step "
-            f"of {step:g} s last {lasts:g} s: fetch the file again, or read its numbers with "
-            "from_columns and the step that is right"
+            f"{name}: {form.name}: the header states {length:g} s, but {count} samples at "
+            f"its step of {step:g} s last {lasts:g} s: download the file again, or use "
+            "from_columns with the right step"
         )
         raise MotionError(msg)
     return flat[:size].reshape(count, columns), step
@@ -265,8 +264,8 @@ def single_traces(
         if len(every) != 1:
             named = ", ".join(each.direction for each in every)
             msg = (
-                f"{path.name} holds {len(every)} components ({named}), and {axis} is one: name the "
-                "file in the column record, and directions in x, y and z"
+                f"{path.name} holds {len(every)} components ({named}), but {axis} is one: put "
+                "the file in the column record, and the directions in x, y and z"
             )
             raise MotionError(msg)
         found[axis] = every[0]
@@ -286,7 +285,7 @@ def record_traces(
 ) -> tuple[dict[str, AccelerationTrace], dict[str, float]]:
     """Read files of one record, and put their components on axes."""
     if not paths:
-        msg = "no file is given: name those of the record, from_record('A.EW', 'A.NS', 'A.UD')"
+        msg = "no file is given: pass the files of the record, from_record('A.EW', 'A.NS', 'A.UD')"
         raise MotionError(msg)
     every = [component for path in paths for component in read_record(path)]
     named = ", ".join(each.direction or "without a name" for each in every)
@@ -299,8 +298,8 @@ def record_traces(
                 ]
                 if len(same) != 1:
                     msg = (
-                        f"{axis} = {direction!r} is {len(same)} of the directions {named}: choose "
-                        "one as it is written"
+                        f"{axis} = {direction!r} is {len(same)} of the directions {named}: "
+                        "write one as listed"
                     )
                     raise MotionError(msg)
                 chosen[axis] = same[0]
@@ -310,7 +309,8 @@ def record_traces(
         if len(up) > 1 or len(flat) > 2:
             msg = (
                 f"{', '.join(Path(path).name for path in paths)} hold {len(every)} components "
-                f"({named}): say which directions are x, y and z, as in x={flat[0].direction!r}"
+                f"({named}): set the directions of x, y and z, for example "
+                f"x={flat[0].direction!r}"
             )
             raise MotionError(msg)
         chosen = dict(zip("xy", flat, strict=False)) | dict(zip("z", up, strict=False))

@@ -288,8 +288,8 @@ def _of_peak(given: Mapping[str, FloatArray]) -> list[str]:
         peak = float(np.abs(values).max())
         if peak > STRONGEST_RECORDED:
             return [
-                f"{axis} peaks at {peak:.4g} m/s2 = {peak / STANDARD_GRAVITY:.3g} g, the strongest "
-                "record known has some 4.4 g: its unit is probably another; "
+                f"{axis} peaks at {peak:.4g} m/s2 = {peak / STANDARD_GRAVITY:.3g} g, above "
+                "the strongest known record (4.4 g): check its unit; "
                 f"{meant(peak, 'm/s2', 0.05, 30.0)}"
             ]
     return []
@@ -300,9 +300,8 @@ def _of_components(flat: Mapping[str, FloatArray]) -> list[str]:
         x, y = (values / np.linalg.norm(values) for values in flat.values())
         if len(x) == len(y) and abs(float(x @ y)) > SAME:
             return [
-                "x and y are one history, or proportional: the ground moves along one line, in "
-                "directions between them more than in either; give the other component of the "
-                "record, or x alone"
+                "x and y are identical or proportional, so the ground moves along one line: use "
+                "the other component of the record, or x alone"
             ]
     return []
 
@@ -318,9 +317,9 @@ def _of_step(flat: Mapping[str, FloatArray], dt: float) -> list[str]:
         longer = ratio > USUAL_RATIO[0]
         return [
             f"{axis}: PGA {peak:.3g} m/s2, PGV {left.peak_velocity:.3g} m/s, PGD "
-            f"{left.peak_displacement:.3g} m; PGV / PGA = {ratio:.2g} s, of records 0.03 to 0.5 s: "
-            f"dt = {dt:g} s is probably too {'long' if longer else 'short'} (periods go with dt, "
-            "displacements with its square): look it up in the record's file"
+            f"{left.peak_displacement:.3g} m; PGV / PGA = {ratio:.2g} s is outside 0.03 to "
+            f"0.5 s of records. dt = {dt:g} s is probably too "
+            f"{'long' if longer else 'short'}: check it in the record's file"
         ]
     return []
 
@@ -332,9 +331,8 @@ def _of_end(flat: Mapping[str, FloatArray]) -> list[str]:
         share = float(intensity[-last:].sum() / intensity.sum())
         if share > LARGEST_END:
             return [
-                f"{axis}: the last {LAST_PART:.0%} of its duration hold {share:.1%} of its Arias "
-                f"intensity, of whole records below 0.3 %, and it ends at "
-                f"{abs(values[-1]) / np.abs(values).max():.0%} of its peak: it was probably cut in "
-                "its strong phase; give the whole record, or displacements may come out too small"
+                f"{axis} was probably cut in its strong phase: its last {LAST_PART:.0%} have "
+                f"{share:.1%} of the Arias intensity (usual: below 0.3 %), and it ends at "
+                f"{abs(values[-1]) / np.abs(values).max():.0%} of its peak. Use the whole record"
             ]
     return []

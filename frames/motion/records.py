@@ -67,7 +67,7 @@ def read_at2(path: PathLike) -> AccelerationTrace:
         found = repr(lines[3].strip()) if len(lines) > 3 else f"only {len(lines)} lines"
         msg = (
             f"{name}: line 4 of an AT2 file must read 'NPTS= 4000, DT= .005 SEC' or '4000 "
-            f"0.005 NPTS, DT', not {found}: give an AT2 file, or use from_columns(x=..., "
+            f"0.005 NPTS, DT', not {found}: use an AT2 file, or from_columns(x=..., "
             'order="rows", skip=<header lines>, dt=<s>, unit="g")'
         )
         raise MotionError(msg)
@@ -82,7 +82,7 @@ def read_at2(path: PathLike) -> AccelerationTrace:
         state = "is cut short" if len(values) < points else "holds more than one record"
         msg = (
             f"{name} {state}: {len(values)} values, but the header states NPTS = {points}: "
-            "fetch the file again"
+            "download the file again"
         )
         raise MotionError(msg)
     return AccelerationTrace(values * _at2_unit(name, lines[2]), step)
@@ -120,8 +120,8 @@ def _at2_unit(name: str, line: str) -> float:
     if factor is None or (other and "ACCELERATION" not in (word.upper() for word in words)):
         found = unit or min(other)
         msg = (
-            f"{name}: the unit {found!r} in line 3 is not an acceleration's, one of {_UNITS}: "
-            "give the file with the accelerations"
+            f"{name}: the unit {found!r} in line 3 is not an acceleration ({_UNITS}): use "
+            "the file of accelerations"
         )
         raise MotionError(msg)
     return factor
@@ -177,7 +177,7 @@ def checked_component(axis: str, values: object) -> FloatArray:
         msg = f"{axis} must be a 1-D array of accelerations in m/s2 (files: use from_at2): {cause}"
         raise MotionError(msg) from cause
     if array.ndim != 1 or array.size < 2:
-        msg = f"{axis} has shape {array.shape}: give a 1-D array of at least 2 samples in m/s2"
+        msg = f"{axis} has shape {array.shape}: pass a 1-D array of at least 2 samples in m/s2"
         raise MotionError(msg)
     bad = np.flatnonzero(~np.isfinite(array))
     if bad.size:
@@ -187,11 +187,11 @@ def checked_component(axis: str, values: object) -> FloatArray:
     if peak > STRONGEST:
         in_g = peak / STANDARD_GRAVITY
         msg = (
-            f"{axis} peaks at {peak:.4g} m/s2 = {in_g:.4g} g, no ground shakes like that: "
-            f"{meant(peak, 'm/s2', 0.05, 30.0)}"
+            f"{axis} peaks at {peak:.4g} m/s2 = {in_g:.4g} g, above any recorded ground "
+            f"motion: {meant(peak, 'm/s2', 0.05, 30.0)}"
         )
         if 0.05 < 0.01 * in_g < 30.0:
-            msg += f"; {in_g:.4g} cm/s2 taken for g are {0.01 * in_g:.4g} m/s2"
+            msg += f"; {in_g:.4g} cm/s2 are {0.01 * in_g:.4g} m/s2"
         raise MotionError(msg)
     return array
 
@@ -218,8 +218,8 @@ def equal_lengths(given: dict[str, FloatArray]) -> dict[str, FloatArray]:
     for axis, values in given.items():
         if n - len(values) > limit:
             msg = (
-                f"{axis} has {len(values)} samples and {longest} has {n}: they may differ by at "
-                f"most {limit}; cut or fill them to one length, or check that they belong together"
+                f"{axis} has {len(values)} samples and {longest} has {n}(at most {limit} apart): "
+                "cut or extend them to one length, or check that they belong together"
             )
             raise MotionError(msg)
     return {axis: np.pad(values, (0, n - len(values))) for axis, values in given.items()}

@@ -27,7 +27,7 @@ def scaled(given: Given, factor: float | Sequence[float]) -> Changed:
     """Return components times one factor, or times one for each of x, y and z."""
     factors = [factor] * 3 if np.ndim(factor) == 0 else list(np.ravel(factor))
     if len(factors) != 3:
-        msg = f"factor has {len(factors)} entries: give one number, or three for x, y and z"
+        msg = f"factor has {len(factors)} entries: pass one number, or three for x, y and z"
         raise MotionError(msg)
     sizes = [
         require_finite("factor", value, remedy="give a pure number", error=MotionError)
@@ -56,7 +56,7 @@ def trimmed(given: Given, dt: float, start: float, end: float | None) -> Changed
     keep = (time >= first - near) & (time <= last + near)
     if np.count_nonzero(keep) < 2:
         msg = (
-            f"start = {first:g} s, end = {last:g} s keep fewer than 2 samples: give times "
+            f"start = {first:g} s, end = {last:g} s leave fewer than 2 samples: use times "
             f"between 0 and {duration:g} s, at least {dt:g} s apart"
         )
         raise MotionError(msg)
@@ -69,10 +69,7 @@ def resampled(given: Given, dt: float, new: float) -> tuple[Changed, float]:
     duration = (count - 1) * dt
     step = require_finite("dt", new, "s", error=MotionError)
     if not 0.0 < step <= duration:
-        msg = (
-            f"dt = {step:g} s must be greater than 0 and at most {duration:g} s, "
-            "the duration: give a time step in s"
-        )
+        msg = f"dt = {step:g} s must be greater than 0 and at most {duration:g} s, the duration"
         raise MotionError(msg)
     checked_step(step)
     time = np.arange(math.floor(duration / step + 1e-6) + 1) * step
@@ -103,11 +100,10 @@ def baseline_corrected(given: Given, dt: float, *, displacement: bool) -> tuple[
         if abs(change) > LARGEST_CHANGE:
             left = drift_of(values, dt)
             msg = (
-                f"the correction would change the peak of {axis} by {change:.1%}, at most "
-                f"{LARGEST_CHANGE:.0%} is allowed, because the final velocity of "
-                f"{left.velocity:.3g} m/s and displacement of {left.displacement:.3g} m are "
-                "too large for a baseline: use the whole record, or "
-                "corrected(displacement=False)"
+                f"the correction would change the peak of {axis} by {change:.1%} (at most "
+                f"{LARGEST_CHANGE:.0%}): the final velocity of {left.velocity:.3g} m/s and "
+                f"displacement of {left.displacement:.3g} m are too large. Use the whole record, "
+                "or corrected(displacement=False)"
             )
             raise MotionError(msg)
         largest = max(largest, abs(change))

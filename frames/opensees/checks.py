@@ -41,10 +41,9 @@ def refuse_unsymmetric(model: OpenSeesModel) -> None:
             there = [each for each in model.elements if node in each.nodes]
             ends = listed([f"{each.tag} ({each.kind})" for each in there])
             message = (
-                f"the {word} of the OpenSees model is not symmetric near node {node} (entries "
-                f"differ by {apart:.3g} of {largest:.3g}): an element with friction or follower "
-                f"forces ends there, one of {ends}; import the model as it stands without its "
-                "isolators: remove them by ops.remove('element', tag)"
+                f"the {word} of the OpenSees model is not symmetric near node {node} (by "
+                f"{apart:.3g} of {largest:.3g}), due to one of the elements {ends}: remove "
+                "isolators and elements with follower forces by ops.remove('element', tag)"
             )
             raise ModelError(message)
 
@@ -101,15 +100,14 @@ def judge_elements(
         worst = max(left, key=lambda item: item[1])
         tags = listed([element.tag for element, _ in left])
         text = (
-            f"elements {tags} have left their initial stiffness (element {worst[0].tag}, "
-            f"{worst[0].kind}, by {100.0 * worst[1]:.0f} %, {100.0 * YIELDED:.0f} % counts as "
-            "unchanged)"
+            f"elements {tags} no longer have their initial stiffness (element "
+            f"{worst[0].tag}, {worst[0].kind}, differs by {100.0 * worst[1]:.0f} %, at most "
+            f"{100.0 * YIELDED:.0f} %)"
         )
         if not accept:
             message = (
-                f"{text} yield, open or crack and are not linear in this state: import the "
-                "model before, or freeze their present stiffness, "
-                f"{argument('accept_nonlinear', True)}"
+                f"{text}: import the model before they yield, open or crack, or keep their "
+                f"present stiffness, {argument('accept_nonlinear', True)}"
             )
             raise ModelError(message)
         notes.append(f"{text}: their present stiffness is kept")
@@ -137,15 +135,13 @@ def refuse_other_supports(
     if between:
         remedy = (
             f"element {between[0].tag} ({between[0].kind}) joins one to base node "
-            f"{next(n for n in between[0].nodes if n in set(bases))}: bearings take the place of "
-            "such elements, so remove them first, ops.remove('element', "
-            f"{between[0].tag}) and so on ({len(between)} in all)"
+            f"{next(n for n in between[0].nodes if n in set(bases))}: bearings replace these "
+            f"elements, so remove them first, ops.remove('element', {between[0].tag}) and so "
+            f"on ({len(between)} in all)"
         )
     else:
-        remedy = (
-            f"name them in base_nodes, or if they shall stay, {argument('other_supports', tags)}"
-        )
-    message = f"nodes {listed(tags)} are supports that carry elements, but no base nodes: {remedy}"
+        remedy = f"add them to base_nodes, or keep them, {argument('other_supports', tags)}"
+    message = f"nodes {listed(tags)} are supports of elements, but not base nodes: {remedy}"
     raise ModelError(message)
 
 
@@ -177,8 +173,8 @@ def refuse_leaning(system: System, initial: SparseMatrix) -> None:
         raise ModelError(message)
     message = (
         f'the structure buckles under its permanent loads on a fixed base, at "{label}" '
-        f"(axes of the frame, z up): the loads are at least {loads / elastic:.3g} times what its "
-        "elements can carry in this motion; reduce the loads or stiffen columns"
+        f"(frame axes, z up): the loads are at least {loads / elastic:.3g} times the "
+        "buckling load. Reduce the loads or stiffen columns"
     )
     raise ModelError(message)
 

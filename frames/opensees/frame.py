@@ -59,8 +59,8 @@ def imported(kind: type[F], options: Options, name: str) -> F:
     unknown = [tag for tag in (*options.bases, *options.other_supports) if tag not in model.tags]
     if unknown:
         message = (
-            f"the OpenSees model has no node {unknown[0]}, named as a base node or support: give "
-            f"tags of its nodes, {listed(model.tags)}"
+            f"the OpenSees model has no node {unknown[0]}, but base_nodes or supports name "
+            f"it: use tags of its nodes, {listed(model.tags)}"
         )
         raise ModelError(message)
     refuse_unsymmetric(model)
@@ -102,18 +102,21 @@ def imported(kind: type[F], options: Options, name: str) -> F:
 def _check_options(options: Options) -> None:
     bearings = options.bearings
     if options.vertical not in {None, "y", "z"}:
-        message = f'vertical = {options.vertical!r}: the axis that points up is "z" or "y"'
+        message = f'vertical = {options.vertical!r}: use "z" or "y", the axis that points up'
         raise ModelError(message)
     require_choice("base_rotations", options.base_rotations, BASE_ROTATIONS, error=ModelError)
     for word in ("length_unit", "force_unit"):
         require_positive(
-            word, getattr(options, word), remedy="give the model's unit in m or N", error=ModelError
+            word,
+            getattr(options, word),
+            remedy="give the unit of the model in m or N",
+            error=ModelError,
         )
     if options.gravity is not None:
         require_positive(
             "gravity [m/s2]",
             options.gravity,
-            remedy="9.81, or None where the model is loaded",
+            remedy="use 9.81, or None if the model is loaded",
             error=ModelError,
         )
     for tag, device in bearings.items():
@@ -167,7 +170,9 @@ def _released(structure: Structure, options: Options) -> Structure:
     fixed |= np.all(structure.fixed[used], axis=0)
     idle = [tag for tag in options.bases if not used[structure.tags.index(tag)]]
     if idle:
-        message = f"base node {idle[0]} carries nothing: it has no element, mass or constraint"
+        message = (
+            f"base node {idle[0]} has no element, mass or constraint: remove it from base_nodes"
+        )
         raise ModelError(message)
     places = np.flatnonzero(used)
     dofs = (6 * places[:, None] + np.arange(6)).ravel()

@@ -169,7 +169,7 @@ def _one_sided(secants: FloatArray, dashpot: float) -> str:
     if not secants.any():
         return "" if dashpot else "has no stiffness"
     if not pull and not push:
-        return "has no stiffness at rest, and closes like a gap"
+        return "has no stiffness at rest and acts as a gap"
     if abs(pull - push) > DEPARTURE * max(abs(pull), abs(push)):
         return f"has a stiffness of {pull:.4g} in tension and {push:.4g} in compression"
     ratio = float(secants.max()) / max(pull, push)
@@ -240,10 +240,9 @@ def with_viscous_springs(ops: Any, model: OpenSeesModel) -> tuple[SparseMatrix, 
     notes = []
     if unclear:
         notes.append(
-            f"it cannot be told whether OpenSees' damping matrix has the viscous forces of the "
-            f"elements {listed(unclear)}: a zeroLength with -doRayleigh 1 leaves them out there, a "
-            "corotTruss counts them four times, and other damping acts between the same nodes; "
-            "leave -doRayleigh out, take a truss, or give viscous elements nodes of their own"
+            "the damping matrix of OpenSees may not contain the viscous forces of the "
+            f"elements {listed(unclear)}: leave -doRayleigh out, use truss in place of "
+            "corotTruss, or use separate nodes for viscous elements"
         )
     return sparse.csr_array(damping) if added else model.damping, notes
 

@@ -129,7 +129,7 @@ def _shape(ops: Any, tags: tuple[int, ...]) -> int:
     # Displacements of a node; refuses unknown shapes.
     if not tags:
         message = (
-            "OpenSeesPy holds no model in this process: build it (ops.model, ops.node, ...) before"
+            "OpenSeesPy holds no model in this process: build it first (ops.model, ops.node, ...)"
         )
         raise ModelError(message)
     ndm = len(ops.nodeCoord(tags[0]))
@@ -139,14 +139,14 @@ def _shape(ops: Any, tags: tuple[int, ...]) -> int:
     if other:
         message = (
             f"node {other[0]} of the OpenSees model has {counts[tags.index(other[0])]} "
-            f"displacements in {ndm} dimensions ({len(other)} of {len(tags)} nodes are like that): "
-            "models with ndm 3, ndf 6 and ndm 2, ndf 3 can be imported"
+            f"displacements in {ndm} dimensions ({len(other)} of {len(tags)} nodes): use ndm "
+            "3 with ndf 6, or ndm 2 with ndf 3"
         )
         raise ModelError(message)
     if len(tags) * wanted > LARGEST:
         message = (
-            f"the OpenSees model has {len(tags) * wanted} displacements, at most {LARGEST} can be "
-            "imported as full matrices: leave out detail, or condense it"
+            f"the OpenSees model has {len(tags) * wanted} displacements (at most {LARGEST}): "
+            "simplify or condense it"
         )
         raise ModelError(message)
     return wanted
@@ -163,16 +163,16 @@ def _refuse_motion(ops: Any, tags: tuple[int, ...]) -> None:
         if not sizes[worst] <= limit:
             message = (
                 f"the OpenSees model is not at rest: {word} {sizes[worst]:.3g} at node "
-                f"{tags[worst]}, at most {limit:g} is allowed: take it over before its time "
-                "history, or let it come to rest"
+                f"{tags[worst]} (at most {limit:g}). Import it before its time history, or "
+                "let it come to rest"
             )
             raise ModelError(message)
     for pattern in ops.getPatterns() or ():
         if not ops.getNodeLoadTags(pattern) and not ops.getEleLoadTags(pattern):
             message = (
-                f"load pattern {pattern} of the OpenSees model has no loads on nodes or elements: "
-                "a ground motion or imposed displacements cannot be imported; remove it by "
-                f"ops.remove('loadPattern', {pattern}) and give the motion to time_history"
+                f"load pattern {pattern} of the OpenSees model has no loads (a ground motion "
+                "or imposed displacements?): remove it by ops.remove('loadPattern', "
+                f"{pattern}), and pass the motion to time_history"
             )
             raise ModelError(message)
 
@@ -190,8 +190,8 @@ def _number(ops: Any, tags: tuple[int, ...], ndf: int, supports: float, ties: fl
     places = np.array([ops.nodeDOFs(tag) for tag in tags], dtype=np.int64).ravel()
     if not np.array_equal(np.sort(places), np.arange(len(tags) * ndf)):
         message = (
-            f"OpenSees numbers {ops.systemSize()} equations where the model has "
-            f"{len(tags) * ndf} displacements: this build cannot be read, use openseespy 3.7 or 3.8"
+            f"OpenSees has {ops.systemSize()} equations, but the model has {len(tags) * ndf} "
+            "displacements: use openseespy 3.7 or 3.8"
         )
         raise ModelError(message)
     return places

@@ -157,24 +157,24 @@ def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
     tags = listed(sorted({each.tag for each, _ in bad}))
     if law.one_sided:
         what = law.one_sided
-        instead = "Gap(gap=..., stiffness=...), or Tie(stiffness=...) for what pulls only"
+        instead = "Gap(gap=..., stiffness=...), or Tie(stiffness=...) for tension only"
     else:
         what = _ALONG if element.kind == _COUPLED else _CURVED
         instead = "ViscousDamper(coefficient=..., exponent=...)"
     text = f"element {element.tag} ({element.kind}) is of {law.kind}, which {what}"
     if accept:
         return [
-            f"{text} (elements {tags} are like that): it is frozen at its present stiffness, as "
-            "asked for by accept_nonlinear, and neither opens, closes nor slackens"
+            f"{text} (elements {tags}): accept_nonlinear keeps the present stiffness, so it "
+            "neither opens, closes nor slackens"
         ]
     i, j = element.nodes[0], element.nodes[-1]
     afterwards = in_python(
-        f', and add to the frame afterwards frame.add_link("link-{element.tag}", "{i}", "{j}", '
+        f', and add it afterwards by frame.add_link("link-{element.tag}", "{i}", "{j}", '
         f"law, direction) with {instead}"
     )
     message = (
-        f"{text}: no linear stiffness stands for it (elements {tags} are like that); remove it "
-        f"before, ops.remove('element', {element.tag}){afterwards}; or freeze the present "
+        f"{text}, and has no linear stiffness (elements {tags}): remove it first, "
+        f"ops.remove('element', {element.tag}){afterwards}; or keep the present "
         f"stiffness, {argument('accept_nonlinear', True)}"
     )
     raise ModelError(message)
@@ -199,14 +199,11 @@ def _note(kind: str, kinds: str, group: list[Nature], shares: dict[int, float]) 
     text += ": they are taken as linear with their present stiffness and damping"
     if kinds and limits:
         unit = "deformation" if kind in SPRINGS else "strain"
-        text += (
-            f", which is theirs within {100.0 * DEPARTURE:.0f} % up to a {unit} of "
-            f"{min(limits):.3g}"
-        )
+        text += f", valid within {100.0 * DEPARTURE:.0f} % up to a {unit} of {min(limits):.3g}"
     if not shares:
         return text
     return (
-        f"{text}; they hold {share:.3g} % of the strain energy under horizontal load on the fixed "
-        f"base: where they are 10 % softer, horizontal displacements over the base are about "
+        f"{text}; they have {share:.3g} % of the strain energy under horizontal load on "
+        "a fixed base: if they are 10 % softer, displacements above the base are about "
         f"{share / 10.0:.2g} % larger"
     )

@@ -95,9 +95,9 @@ def permanent_load(structure: Structure, options: Options) -> tuple[FloatArray, 
     is_loaded = weight > _LOADED * usual if usual > 0.0 else weight > 0.0
     if options.gravity is None and not is_loaded:
         message = (
-            f"the OpenSees model carries a vertical load of {weight:.4g} N, its masses would weigh "
-            f"{usual:.4g} N: analyse its gravity loads first, or let its masses weigh, "
-            f"{argument('gravity', 9.81)}"
+            f"the OpenSees model carries a vertical load of {weight:.4g} N, but its masses "
+            f"weigh {usual:.4g} N: analyse its gravity loads first, or apply the weight of "
+            f"the masses, {argument('gravity', 9.81)}"
         )
         raise ModelError(message)
     if options.gravity is not None and is_loaded:
@@ -113,14 +113,14 @@ def permanent_load(structure: Structure, options: Options) -> tuple[FloatArray, 
         weight = 0.0 - float(load[2::6].sum())
         if lifted < 0.999 * moving:
             notes.append(
-                f"the masses along the vertical are {lifted:.4g} kg, those along x {moving:.4g} "
-                "kg: what has no vertical mass does not weigh"
+                f"the masses along the vertical are {lifted:.4g} kg, those along x "
+                f"{moving:.4g} kg: masses without a vertical part have no weight"
             )
     if usual > 0.0 and not _RATIO[0] < weight / usual < _RATIO[1]:
         notes.append(
             f"weight {weight:.4g} N over mass times {STANDARD_GRAVITY:g} m/s2 is "
-            f"{weight / usual:.3g}: check the units, and pass length_unit [m] and force_unit [N] "
-            "where the model is not in N, m and kg"
+            f"{weight / usual:.3g}: check the units, and pass length_unit [m] and force_unit "
+            "[N] if the model is not in N, m and kg"
         )
     return load, notes
 
@@ -136,11 +136,11 @@ def rigid_damping(structure: Structure, options: Options) -> list[str]:
     if ratio <= _RIGID_DAMPING:
         return []
     return [
-        f"the damping of the OpenSees model (mass-proportional or modal) also damps the motion of "
-        f"the whole building on its bearings, by {100.0 * ratio:.1f} % of critical at their "
-        f"period of {2.0 * math.pi / omega:.2f} s, as it does in OpenSees; "
-        f"{argument('damping', False)} leaves it out"
-        + in_python(", frame.set_damping(ModalDamping(0.02)) damps the structure alone")
+        "the damping of the OpenSees model (mass-proportional or modal) also damps the "
+        f"isolation mode, by {100.0 * ratio:.1f} % of critical at "
+        f"{2.0 * math.pi / omega:.2f} s, as in OpenSees: leave it out by "
+        f"{argument('damping', False)}"
+        + in_python(", and damp the structure alone by frame.set_damping(ModalDamping(0.02))")
     ]
 
 
@@ -151,9 +151,9 @@ def light_base(structure: Structure, options: Options) -> list[str]:
     if moved[bases].sum() > _LIGHT * moved.sum():
         return []
     return [
-        f"the base nodes have {moved[bases].sum():.4g} kg of {moved.sum():.4g} kg: a base without "
-        "mass rings, and steps become small; give them the mass of the slab above the bearings, "
-        f"ops.mass({options.bases[0]}, ...) and so on before"
+        f"the base nodes have {moved[bases].sum():.4g} kg of {moved.sum():.4g} kg, so "
+        "the base vibrates at high frequency and steps become small: add the mass of "
+        f"the slab above the bearings, ops.mass({options.bases[0]}, ...) before"
         + in_python(f', or frame.add_mass("{options.bases[0]}", kg) afterwards')
     ]
 
@@ -180,22 +180,22 @@ def with_vertical_mass(
         more = np.zeros(len(own))
     else:
         message = (
-            f'vertical_mass = {given!r}: give "horizontal", masses in kg by tag of node, or None'
+            f'vertical_mass = {given!r}: use "horizontal", masses in kg by tag of node, or None'
         )
         raise ModelError(message)
     moving, lifted = float(own[:, 0].sum()), float((own[:, 2] + more)[rises].sum())
     if lifted <= _NONE * moving:
         message = (
-            f"the OpenSees model has {moving:.4g} kg along x, but no mass along the vertical that "
-            'could move: pass vertical_mass="horizontal" to let its masses act along the '
-            "vertical, too, or vertical_mass={tag: kg, ...}; neither adds weight to a loaded model"
+            f"the OpenSees model has {moving:.4g} kg along x, but no vertical mass on free "
+            'nodes: pass vertical_mass="horizontal" to use the same masses vertically, or '
+            "vertical_mass={tag: kg, ...} (the weight stays)"
         )
         raise ModelError(message)
     notes = []
     if lifted < _FEW * moving:
         notes.append(
-            f"the mass that can move along the vertical is {lifted:.4g} kg, that along x "
-            f'{moving:.4g} kg: pass vertical_mass="horizontal" if the rest moves vertically, too'
+            f"the vertical mass is {lifted:.4g} kg, the mass along x {moving:.4g} kg: pass "
+            'vertical_mass="horizontal" if the rest also moves vertically'
         )
     diagonal = np.zeros((len(own), 6))
     diagonal[:, 2] = more
@@ -211,8 +211,8 @@ def _given(structure: Structure, given: Mapping[int, float], rises: BoolArray) -
         if tag not in structure.tags or not rises[structure.tags.index(tag)]:
             able = [node for node, free in zip(structure.tags, rises, strict=True) if free]
             message = (
-                f"vertical_mass names node {tag}, which is not there or held vertically: give "
-                f"nodes that can rise, {listed(able)}"
+                f"vertical_mass names node {tag}, which does not exist or is fixed "
+                f"vertically: use nodes that are free vertically, {listed(able)}"
             )
             raise ModelError(message)
         more[structure.tags.index(tag)] += number
@@ -228,8 +228,8 @@ def _as_horizontal(structure: Structure, own: FloatArray, rises: BoolArray) -> F
         floor = np.flatnonzero(carrying & (np.abs(heights - heights[place]) < SAME_PLACE))
         if not len(floor):
             message = (
-                f"node {structure.tags[place]} has {lacking[place]:.4g} kg, but it is held "
-                "vertically and no node of its elevation can rise: give vertical_mass by tag"
+                f"node {structure.tags[place]} has {lacking[place]:.4g} kg, but is fixed "
+                "vertically, as are all nodes at its elevation: give vertical_mass by tag"
             )
             raise ModelError(message)
         more[floor] += lacking[place] / len(floor)

@@ -142,7 +142,7 @@ def bearing_sections(
     pick.need(data, drawn, "record them, to draw sections")
     if isinstance(bearing, str):
         if name is not None and name != bearing:
-            msg = f"two names are given, {bearing!r} and {name!r}: give one, or a device and a name"
+            msg = f"two names are given, {bearing!r} and {name!r}: pass one, or a device and a name"
             raise ValueError(msg)
         bearing, name = None, bearing
     name = pick.choose_bearing({"the Dataset": data}, name)
@@ -263,7 +263,7 @@ def _instants(
     else:
         chosen = {" " * k: float(time) for k, time in enumerate(instants)}
     if not chosen:
-        msg = "instants is empty: give at least one time [s] by title, or leave it out"
+        msg = "instants is empty: pass at least one time [s] by title, or leave it out"
         raise ValueError(msg)
     first, last = (float(data["time"][k]) for k in (0, -1))
     for title, time in chosen.items():

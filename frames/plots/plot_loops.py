@@ -198,8 +198,8 @@ def _loop(data: xr.Dataset, bearing: str | None) -> Loop:
         weight = float(chosen["static_axial_force"])
     if not weight > 0.0:
         msg = (
-            f"the weight on {bearing or 'the bearings'} is {weight:g} N: forces are drawn over it; "
-            "put permanent loads on the model first"
+            f"the weight on {bearing or 'the bearings'} is {weight:g} N, but forces are "
+            "divided by it: add permanent loads to the model"
         )
         raise ValueError(msg)
     return u, force.to_numpy() / weight

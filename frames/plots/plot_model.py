@@ -161,7 +161,7 @@ def model_film(
     system = assemble(model)
     require_own(model, system, data)
     if not speed > 0.0:
-        msg = f"speed = {speed:g} must be positive: 1 is that of the earthquake"
+        msg = f"speed = {speed:g} must be positive: 1 is the speed of the earthquake"
         raise ValueError(msg)
     data = next(iter(pick.as_systems(data, start, end).values()))
     times = data["time"].to_numpy()
@@ -219,7 +219,7 @@ def mode_shapes(model: FrameData, count: int = 3, bearings: BearingStiffness = "
     In the gallery: "Modes with the bearings sliding" (docs/gallery/building/b_modes.py).
     """
     if count > len(ps.COLUMNS) - 1:
-        msg = f"count = {count}: at most {len(ps.COLUMNS) - 1} modes go on a page; draw fewer"
+        msg = f"count = {count}: draw at most {len(ps.COLUMNS) - 1} modes a page"
         raise ValueError(msg)
     found, system = modes(model, count, bearings), assemble(model)
     columns = ps.COLUMNS[count]

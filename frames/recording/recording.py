@@ -161,8 +161,8 @@ def recording_of(recording: object, record_every: object) -> Recording:
         raise TypeError(msg)
     if every != 1:
         msg = (
-            f"record_every = {every} and recording = {recording!r} say the same thing twice: give "
-            f"Recording(every={every}, ...) alone"
+            f"record_every = {every} and recording = {recording!r} conflict: pass "
+            f"Recording(every={every}, ...) only"
         )
         raise ValueError(msg)
     return recording
@@ -179,7 +179,7 @@ def require_known(recording: Recording, data: xr.Dataset) -> None:
     for kind, names in known.items():
         unknown = [name for name in getattr(recording, kind) or () if name not in names]
         if unknown and unknown[0] in data.variables:
-            msg = f'{kind}: "{unknown[0]}" has no history, it is kept always: leave it out'
+            msg = f'{kind}: "{unknown[0]}" is always recorded: leave it out'
             raise ValueError(msg)
         if unknown:
             hint = likely(unknown[0], names) or "the model has none"
@@ -251,8 +251,8 @@ def number_of_steps(duration: float, dt: float | None, largest: float) -> int:
     step = largest if dt is None else require_positive("dt", dt, "s")
     if dt is not None and dt > duration * (1.0 + 1e-9):
         msg = (
-            f"dt = {dt:g} s is longer than the run of {duration:g} s: a step of 0.005 s is usual; "
-            "give it in seconds, or leave it out"
+            f"dt = {dt:g} s is longer than the run of {duration:g} s: give it in s (0.005 s "
+            "is usual), or leave it out"
         )
         raise ValueError(msg)
     if dt is not None and dt > COARSEST:
@@ -261,9 +261,9 @@ def number_of_steps(duration: float, dt: float | None, largest: float) -> int:
         raise ValueError(msg)
     if duration / step > MOST_STEPS:
         msg = (
-            f"duration = {duration:g} s in steps of {step:g} s makes {duration / step:.3g} steps: "
-            f"at most {MOST_STEPS:g} are taken; give both in seconds, shorten the run or use "
-            "larger steps"
+            f"duration = {duration:g} s in steps of {step:g} s makes {duration / step:.3g} "
+            f"steps (at most {MOST_STEPS:g}): give both in s, shorten the run or use larger "
+            "steps"
         )
         raise ValueError(msg)
     return max(1, math.ceil(duration / step - 1e-9))
@@ -290,8 +290,9 @@ def require_room(step: float, records: int, besides: float = 0.0) -> None:
     if needed > there:
         msg = (
             f"{records} recorded steps take about {1e-9 * needed:.3g} GB, the machine has "
-            f"{1e-9 * there:.3g} GB: use record_every = {math.ceil(2.0 * needed / there)} or more "
-            "(times the present one), fewer channels or none (frames.Recording), or a shorter run"
+            f"{1e-9 * there:.3g} GB: use record_every = {math.ceil(2.0 * needed / there)} or "
+            "more (times the present one), fewer channels (frames.Recording), or a shorter "
+            "run"
         )
         raise ValueError(msg)
 
@@ -317,6 +318,6 @@ def require_rows(needed: float, runs: int, asked: int) -> None:
         msg = (
             f"the results of {runs} of {asked} runs need about {1e-9 * needed:.3g} GB, the "
             f"machine has {1e-9 * there:.3g} GB: call time_histories for fewer cases and "
-            "save each, or use record=None, which keeps peaks alone"
+            "save each, or use record=None (peaks only)"
         )
         raise ValueError(msg)

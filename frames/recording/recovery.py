@@ -240,21 +240,22 @@ def require_own(model: FrameData, system: System, data: xr.Dataset) -> None:
     """Raise a ModelError unless a result was computed with a model, assembled as `system`."""
     if "node_displacement" not in data:
         msg = (
-            "data has no node_displacement: give the Dataset of a time_history of this model that "
-            "recorded it"
+            "data has no node_displacement: pass the Dataset of a time_history of this "
+            "model that recorded it"
         )
         raise ModelError(msg)
     if "nodes_of_level" in data:
         msg = (
-            f"data holds {data.sizes['node']} of {len(system.node_names)} nodes: forces in the "
-            "structure need all of them recorded"
+            f"data holds {data.sizes['node']} of {len(system.node_names)} nodes, but forces "
+            "in the structure need all: record all nodes"
         )
         raise ModelError(msg)
     if tuple(str(name) for name in data["node"].to_numpy()) != system.node_names:
         msg = (
             f"data was not computed with this model: it has {data.sizes['node']} nodes "
-            f"({listed(data['node'].to_numpy(), 4)}), {model.name} has {len(system.node_names)} "
-            f"({listed(system.node_names, 4)}): give the model of that time_history"
+            f"({listed(data['node'].to_numpy(), 4)}), {model.name} has "
+            f"{len(system.node_names)} ({listed(system.node_names, 4)}): pass the model of "
+            "that time_history"
         )
         raise ModelError(msg)
 
@@ -383,8 +384,8 @@ def _bearing_ends(found: _Structure, chosen: BoolArray) -> FloatArray:
     require_recorded(data, "forces of bearings", "bearing_force", "bearing_moment")
     if data.sizes["bearing"] != len(system.bearings):
         msg = (
-            f"data holds {data.sizes['bearing']} of {len(system.bearings)} bearings: forces of "
-            "storeys and supports need all of them recorded"
+            f"data holds {data.sizes['bearing']} of {len(system.bearings)} bearings, but "
+            "forces of storeys and supports need all: record all bearings"
         )
         raise ModelError(msg)
     force = data["bearing_force"].transpose("time", "bearing", "axis").to_numpy()

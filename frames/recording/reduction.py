@@ -302,7 +302,7 @@ def _part(held: _Held, chosen: BoolArray) -> _Held:
 
 def _tail(state: _State) -> xr.Dataset:
     if state.tail is None:
-        msg = "no step was taken up"
+        msg = "no step was recorded"
         raise AssertionError(msg)
     return state.tail
 

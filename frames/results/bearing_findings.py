@@ -126,8 +126,7 @@ def slip_stability(data: xr.Dataset) -> Finding:
         parts.append(
             worded(
                 "{bearing} slipped {slip:.4g} of {total:.4g} mm, the overlap of the "
-                "sliders: a few per cent decide whether it fails. Raise mu_h or the "
-                "capacity",
+                "sliders: a few per cent more and it fails. Raise mu_h or the capacity",
                 bearing=names[last],
                 slip=1e3 * slip[last],
                 total=limit,
@@ -164,9 +163,9 @@ def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     assumed = bool(np.isclose(stiffness[k], stack_stiffness(area[k], height[k]), rtol=1e-6))
     low, high = STACK_RANGE
     text = worded(
-        "{bearing} met a rim with a slip at {time:.2f} s: the axial stiffness stops "
-        "{speed:.3g} mm/s along the slider, which raises the axial force by up to {share} "
-        "of that at rest, and the bearing force with it",
+        "rim contact of {bearing} with slip at {time:.2f} s stops {speed:.3g} mm/s "
+        "along the slider, which raises its axial force by up to {share} of the load at "
+        "rest",
         bearing=names_of(data, "bearing")[k],
         time=closing.at[k],
         speed=1e3 * closing.values[k],
@@ -174,8 +173,8 @@ def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     )
     if assumed:
         estimate = worded(
-            "this stiffness of {k:.3g} N/m is the default, an estimate: run with {low:g} and "
-            "{high:g} times that, or give the maker's",
+            "axial_stiffness = {k:.3g} N/m is a default estimate: run with {low:g} and "
+            "{high:g} times it, or set the manufacturer's value",
             k=stiffness[k],
             low=low,
             high=high,
@@ -203,9 +202,9 @@ def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
     if shares[least] < STUCK:
         parts.append(
             worded(
-                "{bearing} moved {share} of its friction length (L Q/W = {held:.3g} mm): a "
-                "yield_displacement of {yield_displacement:.2g} mm changes a peak of this "
-                "size by some 10 %, smaller ones by more",
+                "{bearing} moved {share} of its friction length (L Q/W = {held:.3g} mm): "
+                "yield_displacement = {yield_displacement:.2g} mm changes such a peak by "
+                "about 10 %, smaller ones by more",
                 bearing=names[least],
                 share=percent(float(shares[least])),
                 held=1e3 * held[least],
@@ -215,8 +214,8 @@ def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
     if LEFT_OVER * held[most] < rest[most] <= held[most]:  # beyond it it still swings
         parts.append(
             worded(
-                "{bearing} has a residual displacement of {rest:.3g} mm, and friction "
-                "holds up to {held:.3g} mm: one run means little, use the median of many",
+                "{bearing} has a residual displacement of {rest:.3g} mm, and friction can "
+                "hold up to {held:.3g} mm: use the median of many runs",
                 bearing=names[most],
                 rest=1e3 * rest[most],
                 held=1e3 * held[most],
@@ -249,7 +248,7 @@ def equilibrium(data: xr.Dataset) -> tuple[Finding, ...]:
     if "imbalance" not in data and "peak_imbalance" not in data:
         return ()
     gaps = largest(data, "imbalance")
-    text, most, doubtful = "equilibrium: supports share in it, not summed up", 0.0, False
+    text, most, doubtful = "equilibrium: not checked, because supports carry load", 0.0, False
     if gaps.values.size:
         k = int(np.argmax(gaps.values))
         most, name = float(gaps.values[k]), str(names_of(data, "resultant")[k])
@@ -280,11 +279,11 @@ def _violence(data: xr.Dataset) -> tuple[Finding, ...]:
     mass = data["node_mass"].transpose("node", "axis").to_numpy().max(axis=1)
     own, mean = float(mass[k]), float(mass[mass > 0.0].mean())
     struck = bool(largest(data, "rims_met").values.any() or largest(data, "lifted").values.any())
-    cause = "look at the stiffness of what holds its mass"
+    cause = "check the stiffness of the parts that hold its mass"
     if own < _LIGHT * mean:
         cause = worded(
-            "its mass of {mass:.3g} kg is negligible beside {mean:.3g} kg at a node: add "
-            "the mass that is there, or none",
+            "its mass of {mass:.3g} kg is negligible against {mean:.3g} kg at a mean node: "
+            "add the actual mass, or none",
             mass=own,
             mean=mean,
         )
@@ -314,8 +313,9 @@ def time_step(data: xr.Dataset) -> tuple[Finding, ...]:
     )
     if doubtful:
         text = worded(
-            "time step: steps as given make displacements wrong by up to some {error:.2g} % of the "
-            "largest one: leave dt out, or compare a smaller one (step_sensitivity)",
+            "time step: the given step causes errors of up to about {error:.2g} % of the "
+            "largest displacement: leave dt out, or compare a smaller one "
+            "(step_sensitivity)",
             error=100.0 * error,
         )
     return (remark("time_step", error, text, doubtful=doubtful),)
@@ -351,8 +351,8 @@ def strained(data: xr.Dataset) -> tuple[Finding, ...]:
     count = int(data.attrs["strain_over_limit_count"])
     text = worded(
         "{member} strains to {strain:.3g} times the linear limit of its material at t = "
-        "{time:.4g} s ({count} imported members exceed theirs). It stays elastic here and "
-        "yields in OpenSees: put the bearings under that model by isolate, and compare",
+        "{time:.4g} s ({count} imported members exceed theirs), but stays elastic here. "
+        "Compare with the OpenSees model, isolated by isolate",
         member=data.attrs["strain_over_limit_in"],
         strain=most,
         time=float(data.attrs["strain_over_limit_at"]),

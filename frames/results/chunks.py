@@ -140,7 +140,7 @@ def _opened(path: Path, error: type[ValueError]) -> Generator[Any, None, None]:
                 raise ValueError(msg)
             yield file
     except _DAMAGE as cause:
-        msg = f"{path} is not as it was written ({cause}): remove it, and run again"
+        msg = f"{path} is damaged ({cause}): remove it, and run again"
         raise error(msg) from cause
 
 

@@ -136,7 +136,7 @@ def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
     """
     given: object = tables
     if not isinstance(given, Mapping):
-        msg = f"tables: give them by name, such as {{'name': ...}}, not a {type(given).__name__}"
+        msg = f"tables is a {type(given).__name__}: pass tables by name, {{'name': ...}}"
         raise TypeError(msg)
     tables = {name: _table(name, each) for name, each in tables.items()}
     target = Path(path)
@@ -291,8 +291,8 @@ def storey_ductility(data: xr.Dataset) -> pd.DataFrame:
             storey[axis], storey[f"residual_{axis}"] = row["ductility"], row["residual"]
     if not storeys:
         msg = (
-            "storey_ductility: data has no links of storeys that yield (storey-1-x, ...): give "
-            "shear_building a storey_law, or see ductility(data) for links of other names"
+            "storey_ductility: data has no links of storeys that yield (storey-1-x, ...): "
+            "pass storey_law to shear_building, or use ductility(data) for other links"
         )
         raise ValueError(msg)
     index = pd.Index([f"storey-{k}" for k in sorted(storeys)], name="storey")

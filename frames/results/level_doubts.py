@@ -101,7 +101,7 @@ class LevelDoubts(NamedTuple):
                 error=100.0 * LEAST,
             )
         return worded(
-            'off at the level "pendulum", of {whom}: {errors}',
+            'level "pendulum" may be wrong for {whom}: {errors}',
             whom=who,
             errors=joined(*parts, by=", "),
         )

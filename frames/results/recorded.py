@@ -63,8 +63,8 @@ def require_recorded(data: xr.Dataset, what: str, *names: str) -> None:
     if missing:
         msg = (
             f"{what}: data has no {', '.join(missing)}; its recording is "
-            f'"{data.attrs.get("recording", "not known")}": name it among the channels '
-            "(frames.Recording), or give the Dataset of a time_history"
+            f'"{data.attrs.get("recording", "not known")}": add it to the channels '
+            "(frames.Recording), or pass the Dataset of a time_history"
         )
         raise ValueError(msg)
 

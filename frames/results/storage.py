@@ -155,8 +155,8 @@ def refuse_links(folder: str | Path) -> None:
 
 def _leads_out(link: Path) -> str:
     return (
-        f"{link} is a link out of its folder, to {os.path.realpath(link)}, and nothing was "
-        "written there. Remove the link, or name that place"
+        f"{link} is a link out of its folder, to {os.path.realpath(link)}: remove the "
+        "link, or name its target"
     )
 
 
@@ -168,8 +168,7 @@ def make_folder(path: str | Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as cause:
         msg = (
-            f"{folder} is not a folder and cannot be made one ({cause.strerror}): name "
-            "another place"
+            f"{folder} is not a folder and cannot be created ({cause.strerror}): name another place"
         )
         taken = cause.errno == errno.EEXIST  # by a file
         raise OSError(errno.ENOTDIR if taken else cause.errno, msg) from cause
@@ -250,12 +249,12 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
     True
     """
     if not Path(path).is_file():
-        msg = f"{path} is not a file: give one that save or `lir run` wrote"
+        msg = f"{path} is not a file: use one that save or `lir run` wrote"
         raise FileNotFoundError(msg)
     try:
         data = xr.open_dataset(path, engine="netcdf4")
     except (OSError, ValueError, RuntimeError) as cause:
-        msg = f"{path} holds no results (netCDF): give a file that save, or `lir run`, has written"
+        msg = f"{path} has no results (netCDF): use a file that save or `lir run` wrote"
         raise OSError(msg) from cause
     if lazy:
         return with_present_names(data)

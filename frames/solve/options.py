@@ -95,7 +95,7 @@ def check_options(
         msg = f"features = {features!r} must be a Features, such as Features(rims=False), or None"
         raise TypeError(msg)
     if features is not None and level == "auto":
-        msg = 'level = "auto" chooses the features for itself: leave features out, or give a level'
+        msg = 'level = "auto" sets the features itself: leave features out, or set another level'
         raise ValueError(msg)
     if features is not None:
         _check_features(features, level)
@@ -110,10 +110,7 @@ def check_reduction(method: str, level: object, tolerance: float | None) -> None
         )
         raise ValueError(msg)
     if method == "reduced" and level == "rigid_body":
-        msg = (
-            'method = "reduced" does not go with level="rigid_body", which has one '
-            'bearing: use method="direct"'
-        )
+        msg = 'method = "reduced" does not support level="rigid_body": use method="direct"'
         raise ValueError(msg)
     if tolerance is not None:
         require_between("reduction_tolerance", tolerance, 1e-8, 1e-1, "-")

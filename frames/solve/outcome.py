@@ -76,8 +76,8 @@ def energy_status(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]
         )
         return RunStatus.OK, doubt, _noted("numerical damping", numerical, doubt)
     detail = worded(
-        "the terms of the energy differ from the input by {gap:.3g} % of it (at most {sound:g} % "
-        "is sound), and {share:.3g} % are the time integration's own (at most {limit:g} %)",
+        "the energy balance is in error by {gap:.3g} % of the input (at most {sound:g} "
+        "%), and the time integration dissipates {share:.3g} % (at most {limit:g} %)",
         gap=100.0 * gap,
         sound=100.0 * PROMISE,
         share=100.0 * numerical,
@@ -111,9 +111,9 @@ def _tumbled(data: xr.Dataset) -> str:
         return ""
     worst, degrees, rim = data["bearing"].to_numpy()[k], np.degrees(tilt[k]), np.degrees(lying[k])
     return worded(
-        "the slider of bearing {bearing} tumbled: it tilted by {tilt:.0f} degrees (at its "
-        "rim {rim:.0f}). The rest of the run depends on the step; treat this as a failure "
-        "of the bearing",
+        "the slider of bearing {bearing} overturned: it tilted by {tilt:.0f} degrees "
+        "(at rim contact {rim:.0f}). Later results depend on the step: treat this as "
+        "failure of the bearing",
         bearing=worst,
         tilt=degrees,
         rim=rim,
@@ -160,9 +160,9 @@ def _lost(state: GravityState, dt: float) -> tuple[int, str] | None:
     quickest = float(rings.max())
     if dt * quickest > RESOLVED:
         text += (
-            f"; a landing on a stop lasts some {1e3 * np.pi / quickest:.2g} ms, and forces are "
-            f"those at base steps of {1e3 * dt:.3g} ms: where they count, take "
-            f"dt = {RESOLVED / quickest:.1g} s"
+            f"; a landing on a stop lasts about {1e3 * np.pi / quickest:.2g} ms, less than "
+            f"steps of {1e3 * dt:.3g} ms resolve: for its forces use dt = "
+            f"{RESOLVED / quickest:.1g} s"
         )
     return int(order[0]), text
 
@@ -217,9 +217,8 @@ def _without_inertia(state: GravityState) -> str:
     if not turning:
         return ""
     return (
-        f'; node "{turning[0]}" and others turn without inertia, and their rotations may have no '
-        "equilibrium: give the nodes at the bearings some, "
-        "add_mass(node, 0.0, (J, J, 0.0)) with 1 to 100 kg m2"
+        f'; node "{turning[0]}" and others have no rotational inertia: add some at the '
+        "bearings, add_mass(node, 0.0, (J, J, 0.0)) with 1 to 100 kg m2"
     )
 
 

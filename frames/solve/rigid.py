@@ -193,7 +193,7 @@ def _top_plate(state: GravityState) -> tuple[FloatArray, FloatArray, IntArray]:
     system = state.system
     message = ""
     if len(system.bearings) != 1:
-        message = f"it has {len(system.bearings)} bearings, not one"
+        message = f"it has {len(system.bearings)} bearings, but one is needed"
     elif system.stiffness.nnz and np.abs(system.stiffness.data).max() > 0.0:
         message = "it has members or springs; only a mass on a bearing is supported"
     elif len(system.parts.kind):

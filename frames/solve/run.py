@@ -51,8 +51,8 @@ _ENERGY_FLOOR = 1e-6  # of weight times effective radius
 
 
 NOT_CORRECTED = (
-    f'integrator = "{CORRECTED}" is for structures with links or hinges, damped by modes or '
-    'stiffness and not by a matrix: take integrator="newmark" with a smaller dt'
+    f'integrator = "{CORRECTED}" needs links or hinges, and damping by modes or '
+    'stiffness, not by a matrix: use integrator="newmark" with a smaller dt'
 )
 
 

@@ -82,7 +82,7 @@ def step_sensitivity(
     """
     for name in ("record_every", "recording"):
         if name in options:
-            msg = f"{name}: step_sensitivity compares whole runs: leave it out"
+            msg = f"step_sensitivity does not support {name}: leave it out"
             raise TypeError(msg)
     asked = time_history(model, motion, duration, dt, **options)
     with warnings.catch_warnings():

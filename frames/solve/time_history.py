@@ -247,7 +247,7 @@ class Analysis:
         require_type("frame", frame, FrameData, "a Frame")
         check_options(level, _DIRECT, None, "warn", features)
         if level in {"auto", "rigid_body"} if isinstance(level, str) else False:
-            msg = f'level = "{level}" has no equilibrium that runs share: use time_history'
+            msg = f'level = "{level}" does not share gravity states between runs: use time_history'
             raise ValueError(msg)
         kept, chosen = features or Features.all(), level if isinstance(level, str) else dict(level)
         with blas_threads_for(frame):
@@ -356,7 +356,7 @@ def _run(
     last_run.data.attrs |= found.attrs
     if found.doubt:
         text = worded(
-            "reduced: two runs differ by more than asked for: {differences}",
+            "reduced: two runs differ by more than reduction_tolerance: {differences}",
             differences=found.doubt,
         )
         noted = remark("reduced", found.attrs["reduction_tolerance"], text, doubtful=True)

@@ -240,9 +240,9 @@ def refuse_yielding(found: NonlinearParts, d: FloatArray) -> None:
         force = link.law.stiffness * abs(float(d[found.first[k]]))
         if force > link.law.yield_force:
             message = (
-                f'link "{link.name}" carries {force:.4g} N (N m) of the permanent loads and yields '
-                f"at {link.law.yield_force:.4g}: make it stronger, let other parts carry them, or "
-                "turn it out of their direction"
+                f'link "{link.name}" carries {force:.4g} N (N m) of the permanent loads, but '
+                f"yields at {link.law.yield_force:.4g}: make it stronger, add parts that "
+                "carry them, or change its direction"
             )
             raise ModelError(message)
     sigma, forces, at_rest, scratch = (
@@ -260,8 +260,8 @@ def refuse_yielding(found: NonlinearParts, d: FloatArray) -> None:
             if par[at + 8] > 0.0 and is_outside(par, at, sigma, scratch):
                 n, m_y, m_z = sigma
                 message = (
-                    f'the hinge at end {end} of member "{member}" yields under the permanent '
-                    f"loads, with N = {n:.4g} N, My = {m_y:.4g} N m, Mz = {m_z:.4g} N m: make the "
-                    "member stronger, or release its moments there"
+                    f'the hinge at end {end} of member "{member}" yields under permanent '
+                    f"loads (N = {n:.4g} N, My = {m_y:.4g} N m, Mz = {m_z:.4g} N m): "
+                    "strengthen the member, or release its moments there"
                 )
                 raise ModelError(message)

@@ -103,10 +103,9 @@ class GravityState:
             return []
         return [
             worded(
-                "{free} displacements are too many for all modes: {count} load-dependent "
-                "vectors replace them. Floor accelerations differ by some percent, "
-                "vertical ones of single nodes by more. For all modes stay below {most}, "
-                "with a coarser mesh",
+                "{count} load-dependent vectors replace all modes of {free} displacements. "
+                "Floor accelerations differ by a few percent, vertical ones of single nodes "
+                "by more. For all modes stay below {most}, with a coarser mesh",
                 free=len(self.displacement),
                 count=len(self.basis.omega2),
                 most=LARGE,

@@ -117,7 +117,7 @@ def modes(
     [0.296, 0.296]
     """
     if count < 1:
-        message = f"count = {count} must be at least 1"
+        message = f"count = {count} must be an integer of at least 1: raise it"
         raise ModelError(message)
     require_type("frame", frame, FrameData, "a Frame")
     if isinstance(bearings, str):
@@ -135,8 +135,8 @@ def modes(
         label = system.dof_labels[int(np.argmax(np.abs(error.direction)))]
         way = f'"{bearings}"' if isinstance(bearings, str) else "the stiffnesses given"
         message = (
-            f'the first mode has no positive stiffness, at "{label}": with '
-            f"bearings={way} the frame is unstable under its permanent loads"
+            f'the first mode has no positive stiffness, at "{label}": the frame is unstable '
+            f"under its permanent loads with bearings={way}. Reduce the loads or stiffen it"
         )
         raise ModelError(message) from error
     omega2, q = found.omega2, found.shapes

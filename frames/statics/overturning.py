@@ -43,14 +43,14 @@ class Overturning(NamedTuple):
             return ""
         if self.bearings == 1:
             return joined(
-                "one bearing carries the whole model, whose tilt is held: its axial force knows no "
-                "overturning",
-                "model the bearings where they stand, shear_building(..., plan=...)",
+                "the model has one bearing and its tilt is restrained, so the axial force "
+                "has no part from overturning",
+                "model the bearings at their places in plan, shear_building(..., plan=...)",
             )
         least, axis = min((self.x, "x"), (self.y, "y"))
         held = worded(
-            "the bearings' axial forces carry {share:.3g} % of an overturning moment of motion "
-            "along {axis}: supports of the model hold its tilt",
+            "axial forces of the bearings resist only {share:.3g} % of the overturning "
+            "moment of motion along {axis}: supports of the model restrain its tilt",
             share=100.0 * least,
             axis=axis,
         )

@@ -217,8 +217,8 @@ def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
     if peak > STRONG_GROUND:
         return (
             worded(
-                "the motion's horizontal peak is {peak:.4g} m/s2 = {in_g:.3g} g, above all that "
-                "was recorded: {hint}",
+                "the motion's horizontal peak is {peak:.4g} m/s2 = {in_g:.3g} g, above any "
+                "recorded ground motion: {hint}",
                 peak=peak,
                 in_g=peak / STANDARD_GRAVITY,
                 hint=meant(peak, "m/s2", 0.2, 20.0),
@@ -235,9 +235,9 @@ def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
     if FEEBLE < peak < 0.5 * least * frame.gravity:
         return (
             worded(
-                "the bearings hardly slide: the horizontal peak of the motion, {peak:.3g} "
-                "m/s2 = {in_g:.2g} g, is below half of the friction, {least:.3g} g. "
-                "Motions are in m/s2 ({peak:.3g} g would be {in_si:.3g} m/s2)",
+                "the bearings hardly slide: the horizontal peak, {peak:.3g} m/s2 = "
+                "{in_g:.2g} g, is below half of the friction, {least:.3g} g. Check its unit "
+                "({peak:.3g} g is {in_si:.3g} m/s2)",
                 peak=peak,
                 in_g=peak / STANDARD_GRAVITY,
                 least=least,

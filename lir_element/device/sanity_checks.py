@@ -241,8 +241,8 @@ def _of_slip(bearing: Specification) -> Iterator[str]:
     needed = (overlap / bearing.effective_radius) + bearing.effective_friction
     yield worded(
         "interface_friction = {mu:g} keeps the interface stable without rim contact up "
-        "to {holds:.3g} mm of slip, below the overlap of {overlap:.3g} mm: raise it to "
-        "{needed:.3g}, or limit the slip to {holds:.3g} mm",
+        "to {holds:.3g} mm of slip (slip_stability), below the overlap of {overlap:.3g} mm: "
+        "raise it to {needed:.3g}, or limit the slip to {holds:.3g} mm",
         mu=bearing.interface_friction,
         holds=1e3 * holds,
         overlap=1e3 * overlap,

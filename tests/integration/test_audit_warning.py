@@ -132,6 +132,6 @@ def test_of_many_runs_the_gravest_doubt_is_named():
     with pytest.warns(AuditWarning, match=f"first, run 2: {edge}; {thrown}") as found:
         _warn_of_runs(rows)
     assert "3 of 4 runs completed with a warning" in str(found[0].message)
-    assert "; 2 with forces or accelerations beyond reason" in str(found[0].message)
+    assert "; 2 with unreliable forces or accelerations" in str(found[0].message)
     with pytest.warns(AuditWarning, match=f"with a warning; the first, run 1: {edge}"):
         _warn_of_runs(rows[:2])

@@ -52,7 +52,7 @@ def test_the_run_goes_on_and_says_so(landed):
     assert (np.diff(failed) >= 0.0).all()
     both = len(alone["time"]) - 1
     assert (
-        "forces are those at base steps of 2 ms: where they count, take dt = 0.0005 s"
+        "less than steps of 2 ms resolve: for its forces use dt = 0.0005 s"
         in (landed.attrs["message"])
     )
     np.testing.assert_array_equal(

@@ -202,10 +202,10 @@ def test_bounds_of_the_spectral_radius_are_allowed(run, pulse, radius):
     [
         ({"dt": 1000.0}, "dt = 1000 s is longer than the run of 0.495 s"),
         ({"dt": 1000.0, "level": "rigid_body"}, "dt = 1000 s is longer than the run of 0.495 s"),
-        ({"duration": 1e308}, r"makes 2e\+310 steps: at most 1e\+09|duration = 1e\+308 s"),
+        ({"duration": 1e308}, r"makes 2e\+310 steps \(at most 1e\+09\)|duration = 1e\+308 s"),
         ({"duration": 1e308, "level": "rigid_body"}, r"duration = 1e\+308 s"),
         ({"duration": 4e6}, "recorded steps take about .* GB.*record_every = "),
-        ({"dt": 1e-12}, r"makes 4.95e\+11 steps: at most 1e\+09"),
+        ({"dt": 1e-12}, r"makes 4.95e\+11 steps \(at most 1e\+09\)"),
         ({"dt": math.nan}, "dt = nan"),
     ],
 )
@@ -226,7 +226,7 @@ def test_plates_without_inertia_are_named_where_they_find_no_equilibrium():
         dt=0.01,
     )
     frame = moment_frame((2, 1), 3, bearing=device, base_depth=0.0)
-    with pytest.warns(AnalysisWarning, match=r"turn without inertia.*add_mass\(node, 0.0, \(J, J"):
+    with pytest.warns(AnalysisWarning, match=r"no rotational inertia.*add_mass\(node, 0.0, \(J, J"):
         data = time_history(frame, motion)
     assert data.attrs["status"] == "step_too_small"
     for name in frame.nodes:

@@ -303,7 +303,7 @@ def space_frame(ops, up):
     ops.rayleigh(0.05, 0.0, 0.001, 0.0)
 
 
-@pytest.mark.meant("along the vertical", "the damping of the OpenSees model")
+@pytest.mark.meant("the vertical mass is", "the damping of the OpenSees model")
 def test_plane_and_space_y_up_and_other_units(ops, run):
     """One frame four times: in the plane, in space with z and y up, and in kN and mm."""
     device = lir()

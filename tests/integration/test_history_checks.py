@@ -188,7 +188,7 @@ def test_uplift_makes_a_run_unacceptable_where_the_code_has_none(frame, seven):
     title = "uplift duration above 1 mm: not evaluated"
     stick = one(history_checks(small, frame, "EN 1998-1"), title)
     assert not stick.passed
-    assert stick.note.startswith("one bearing carries the whole model, whose tilt is held")
+    assert stick.note.startswith("the model has one bearing and its tilt is restrained")
     any_gap = replace(HISTORY_RULES["EN 1998-1"], least_gap=0.0)
     assert (
         "3 of 3 runs failed" in one(history_checks(small, frame, any_gap), "runs that failed").note

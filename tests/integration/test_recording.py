@@ -328,7 +328,7 @@ def test_what_lacks_a_variable_says_so():
     data = analyse("impacts", recording=Recording(channels=("bearing_displacement",)))
     frame = SCENES["impacts"][0]
     for function in (storey_drift, floor_acceleration, drift_by_line, uplift_gap):
-        with pytest.raises(ValueError, match=r"data has no .*name it among the channels"):
+        with pytest.raises(ValueError, match=r"data has no .*add it to the channels"):
             function(data)
     with pytest.raises(ModelError, match="data has no node_displacement"):
         member_forces(frame, data)

@@ -44,7 +44,7 @@ def test_a_slider_that_tumbles_is_not_ok() -> None:
     with pytest.warns(AnalysisWarning, match="tumbled"):
         data = time_history(model, toss(15.8), tolerance=1e-3, level="contact")
     assert data.attrs["status"] == "inaccurate"
-    assert "degrees (at its rim 6)" in data.attrs["audit"]
+    assert "degrees (at rim contact 6)" in data.attrs["audit"]
     assert energy_error(data) < 1e-3
     friction = data["energy"].sel(term=["low_friction_bottom", "low_friction_top"]).sum("term")
     assert (np.diff(friction) >= 0.0).all()

@@ -110,7 +110,7 @@ def test_results_and_devices_of_another_kind_are_told() -> None:
     bearing = small_bearing(friction=0.05, interface_friction=0.15)
     model = lumped_mass(bearing, 15e3)
     data = time_history(model, GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1))
-    device = "must be an LIRBearing, the device itself"
+    device = "must be an LIRBearing"
     for words, call, *given in (
         (r"for several, summary\(\{name: data", peaks, [data]),
         ("results is a Dataset: give Datasets by name", summary, data),

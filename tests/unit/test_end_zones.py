@@ -207,7 +207,7 @@ def test_rigid_turns_of_the_nodes_bend_nothing():
     [
         ({"k": (0, 0, 1)}, "'k' is not an end"),
         ({"i": (1.0, 0.0)}, "shape"),
-        ({"i": (2.5, 0, 0), "j": (-2.5, 0, 0)}, "backwards"),
+        ({"i": (2.5, 0, 0), "j": (-2.5, 0, 0)}, "offsets that overlap"),
         ({"i": (2, 0, 0), "j": (-2, 0, 0)}, "less its offsets is 0 m long"),
         ({"i": (250.0, 0, 0)}, r"250 m long, at most 20 m.*mm"),
     ],

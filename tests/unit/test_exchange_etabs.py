@@ -78,11 +78,11 @@ BAD = {
     "no end": ("$ END OF MODEL FILE", "", r"without the line \$ END OF MODEL FILE"),
     "not a model": (TEXT, "hello", r"is not an ETABS text file"),
     "decimal comma": ("HEIGHT 3.0", "HEIGHT 3,0", r'line \d+, table "STORIES.*decimal=","'),
-    "story twice": ('"Story2"  HEIGHT', '"Story1"  HEIGHT', r"two stories have one name"),
+    "story twice": ('"Story2"  HEIGHT', '"Story1"  HEIGHT', r"two stories have the same name"),
     "unknown story": ('"C1"  "Story1"', '"C1"  "Roof"', r'story "Roof" is not defined'),
     "unknown section": ('SECTION "COL"', 'SECTION "COX"', r'"COX" of line "C1" is not def'),
     "unknown point": ('BEAM  "1"', 'BEAM  "77"', r'point "77" is not defined'),
-    "point twice": ('POINT "2"', 'POINT "1"', r'point "1" is there already'),
+    "point twice": ('POINT "2"', 'POINT "1"', r'point "1" occurs twice'),
     "below the base": ('"1"  "1"  1', '"1"  "1"  3', r"there are no 3 stories below"),
     "no mass source": ("  MASSSOURCE  ", "  MASSSAUCE  ", r"has no mass source"),
     "units": ('"KN"  "M"', '"stone"  "M"', r'UNITS = "stone, M" must be a force'),
@@ -114,7 +114,7 @@ def test_all_reasons_against_a_file_are_said_at_once(tmp_path: Path) -> None:
     text = text.replace("FVAL 3.0", "FVAL many", 1)
     path = written(tmp_path, source.sub("", text))
     words = (
-        r"cannot be read as it is, for 4 reasons:\n\(1\) .*FVAL = \"many\".*\n\(2\) .*no mass "
+        r"cannot be read, for 4 reasons:\n\(1\) .*FVAL = \"many\".*\n\(2\) .*no mass "
         r".*\n\(3\) .*limits of axial force.*\n\(4\) .*plastic hinges.*\nIf left out, tension "
         r'limits, hinges would .*allow=\["hinges", "tension limits"\]'
     )

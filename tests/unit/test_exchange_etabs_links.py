@@ -238,7 +238,7 @@ BAD = {
     "no property": ([], LINKS, LACKING.format("K1, K2, K3, K4")),
     "no assignment": (isolator(), LINKS[:6], LACKING.format("K3, K4")),
     "no such point": (isolator(), [LINKS[0].replace("101", "777"), *LINKS[1:]], r"\(K1\)"),
-    "twice": (isolator(), [LINKS[0], *LINKS], r'link "K1" is there already'),
+    "twice": (isolator(), [LINKS[0], *LINKS], r'link "K1" occurs twice'),
     "no radius": (replaced("U3RADIUS 2.4", "U3RADIUS 0"), LINKS, "must have one positive radius"),
     "axis": (replaced("U2 U3", "U2 U4"), LINKS, r'"U4" of link property "FP" must be of U1'),
     "coupled": ([*isolator(), '  LINKPROP "FP" U2U3 5'], LINKS, r"U2U3.*\"link properties\""),

@@ -107,7 +107,7 @@ PERIODS += [0.00842291, 0.00689769, 0.00516804, 0.00516804, 0.00427224, 0.003678
 
 def test_periods_are_those_of_etabs_with_the_mass_of_beams_at_their_ends(tmp_path: Path) -> None:
     # ETABS has the mass of a beam at the joints of its line, here it is at the nodes of the mesh
-    with pytest.warns(ModelWarning, match=r"60.6 % of the permanent loads are no mass"):
+    with pytest.warns(ModelWarning, match=r"60.6 % of the permanent loads have no mass"):
         frame = read(tmp_path)
     found = periods(frame, 3)
     assert_allclose(found[:2], PERIODS[:2], rtol=0.012)

@@ -148,7 +148,7 @@ def test_polygons_whose_centre_does_not_see_all_edges_are_refused(tmp_path: Path
     points = '  POINT "10"  11.0 1.0\n  POINT "11"  1.0 1.0'
     floor = 'FLOOR  6  "1"  "3"  "9"  "10"  "11"  "7"  0  0  0  0  0  0'
     text = soft.replace(FLOOR, floor).replace("\n\n$ LINE CONN", f"\n{points}\n\n$ LINE CONN", 1)
-    with pytest.raises(ModelError, match=r'"F1-Story1" is a shell of 6 corners, which its centre'):
+    with pytest.raises(ModelError, match=r'"F1-Story1" is a shell of 6 corners with a reentrant'):
         frame_of(tmp_path, text)
 
 

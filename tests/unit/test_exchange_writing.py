@@ -190,8 +190,8 @@ WITH_PARTS = r'has superelements \("part"\), which cannot be written for {}'
 @pytest.mark.parametrize(
     ("program", "make", "more", "message"),
     [
-        ("sap2000", on_a_bearing, {}, r"give displacement=0.25, in metres"),
-        ("etabs", on_a_bearing, {}, r"give displacement=0.25, in metres"),
+        ("sap2000", on_a_bearing, {}, r"set it, displacement=0.25 \[m\]"),
+        ("etabs", on_a_bearing, {}, r"set it, displacement=0.25 \[m\]"),
         ("sap2000", lambda: with_a_part(braced(), "mid"), {}, WITH_PARTS.format("SAP2000")),
         ("etabs", lambda: with_a_part(braced(), "mid"), {}, WITH_PARTS.format("ETABS")),
         ("sap2000", detailed, {"units": "stone"}, r'units = "stone"'),

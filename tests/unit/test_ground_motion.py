@@ -118,7 +118,7 @@ class TestAT2:
         path = write("rec.AT2", at2_text(tuple(80.0 * v for v in VALUES), unit="UNITS OF M/S2"))
         assert GroundMotion.from_at2(path).peak["x"] == pytest.approx(40.0)
         strong = write("gal.AT2", at2_text(tuple(784.0 * v for v in VALUES), unit="UNITS OF M/S2"))
-        with pytest.warns(MotionWarning, match=r"392 m/s2 = 40 g, the strongest.*cm/s2 are 3.92"):
+        with pytest.warns(MotionWarning, match=r"392 m/s2 = 40 g, above the strongest.*cm/s2 are 3.92"):
             GroundMotion.from_at2(strong)
 
     @pytest.mark.parametrize(
@@ -157,7 +157,7 @@ class TestAT2:
         folder = write("x", "").parent
         both = [folder / f"whole-{axis}.AT2" for axis in "EN"]
         assert GroundMotion.from_at2(*both).duration == 15.0
-        with pytest.warns(MotionWarning, match="x and y are one history, or proportional"):
+        with pytest.warns(MotionWarning, match="x and y are identical or proportional"):
             GroundMotion.from_at2(both[0], both[0])
         with pytest.warns(MotionWarning, match="was probably cut in its strong phase"):
             GroundMotion.from_at2(*(folder / f"cut-{axis}.AT2" for axis in "EN"))
@@ -170,12 +170,12 @@ class TestAT2:
 
 DT = 0.01
 CURED = {
-    "touch.*width=10": (10.64359, 15.35039),
-    r"touch.*their width, width=\.\.\.": (-1.0, -1.2),
+    "without sep.*width=10": (10.64359, 15.35039),
+    r"without sep.*set their width, width=\.\.\.": (-1.0, -1.2),
     "'head' is text.*skip=2": (0.0, 0.0),
     'decimal comma.*decimal=","': (2.0, 2.0),
     'separated by commas.*delimiter=","': (2.0, 2.0),
-    "line 3: 'End'.*remove the line": (2.0, 2.0),
+    "line 3: 'End'.*or remove it": (2.0, 2.0),
     "line 2 holds 1 numbers.*repair line 2": (3.0, 3.0),
     r"line 1: '\*+' is not a number.*repair": (0.0, 0.0),
 }
@@ -236,7 +236,7 @@ class TestColumns:
         given = {"x": write("station.bbp", BBP), "time": 0, "unit": "g"}
         words = r"has 4 columns: name the one.*\(path, column\)"
         refused(MotionError, words, GroundMotion.from_columns, **given)
-        words = "y = 2 is a column of no file: give the file"
+        words = "y = 2 is a column, but no file is given: set path"
         refused(MotionError, words, GroundMotion.from_columns, y=2, dt=0.1, unit="g")
 
     def test_several_values_a_line(self, write: Callable[[str, str], Path]) -> None:
@@ -278,12 +278,12 @@ class TestColumns:
     @pytest.mark.parametrize(
         ("text", "message", "cure"),
         [
-            (" -9.643590-13.350390\n  1.000000  2.000000", "touch.*width=10", {"width": 10}),
-            ("-1.500-2.5\n-2.500-3.7", r"touch.*their width, width=\.\.\.", {"width": 6}),
+            (" -9.643590-13.350390\n  1.000000  2.000000", "without sep.*width=10", {"width": 10}),
+            ("-1.500-2.5\n-2.500-3.7", r"without sep.*set their width, width=\.\.\.", {"width": 6}),
             ("head\nmore\n1.0 2.0\n1.0 2.0\n", "'head' is text.*skip=2", {"skip": 2}),
             ("1,0 2,0\n3,0 4,0\n", 'decimal comma.*decimal=","', {"decimal": ","}),
             ("1.0,2.0\n3.0,4.0\n", 'separated by commas.*delimiter=","', {"delimiter": ","}),
-            ("1.0 2.0\n3.0 4.0\nEnd of data\n", "line 3: 'End'.*remove the line", "End of data"),
+            ("1.0 2.0\n3.0 4.0\nEnd of data\n", "line 3: 'End'.*or remove it", "End of data"),
             ("1.0 2.0\n3.0\n4.0 5.0\n", "line 2 holds 1 numbers.*repair line 2", "3.0\n"),
             ("1.0 *****\n3.0 4.0\n", r"line 1: '\*+' is not a number.*repair", "1.0 *****\n"),
         ],
@@ -399,7 +399,7 @@ class TestCopies:
         assert motion.n_steps == 21
         assert_allclose(motion.x, two_components().components[10:31, 0], rtol=0.0, atol=0.0)
         assert two_components().trimmed().n_steps == 301
-        with pytest.raises(MotionError, match=r"start = 4 s, end = 3 s keep fewer than 2.*3 s"):
+        with pytest.raises(MotionError, match=r"start = 4 s, end = 3 s leave fewer than 2.*3 s"):
             two_components().trimmed(4.0)
 
     def test_resampled(self) -> None:

@@ -290,15 +290,15 @@ def undigested(path: Path) -> None:
         (flipped, "out/runs-nominal.nc", "report", 2, "its SHA-256 is not the one in run.json"),
         (flipped, "out/governing.nc", "view", 2, "governing.nc is not as it was written"),
         (Path.unlink, "out/governing.nc", "report", 2, "`lir run` writes all files anew"),
-        (undigested, "out/governing.nc", "report", 2, "holds no results (netCDF)"),
+        (undigested, "out/governing.nc", "report", 2, "has no results (netCDF)"),
         (binary, "out/run.json", "report", 2, "run.json is damaged"),
         (cut, "out/run.json", "view", 2, "run.json is damaged"),
         (binary, "out/checks.csv", "view", 2, "checks.csv cannot be read"),
         (a_folder, "out/demands.csv", "report", 4, "demands.csv could not be written"),
         (a_folder, "out/view.html", "view", 4, "view.html could not be written"),
         (a_folder, "out/runs-lower.nc", "report", 2, "runs-lower.nc"),
-        (a_file, "out", "run", 4, "out is not a folder and cannot be made one"),
-        (a_file, "out", "compare", 4, "out is not a folder and cannot be made one"),
+        (a_file, "out", "run", 4, "out is not a folder and cannot be created"),
+        (a_file, "out", "compare", 4, "out is not a folder and cannot be created"),
         (binary, "motions/motions.csv", "check", 2, "motions.csv"),
         (Path.unlink, "motions/motions.csv", "check", 2, "motions.csv"),
         (binary, "motions/artificial-5-x.txt", "check", 2, "artificial-5-x.txt"),
@@ -339,7 +339,7 @@ def test_results_that_are_removed_while_running(done, monkeypatch, instead):
     monkeypatch.setattr(design_run, "run_project", removed)
     found = lir("run", done)
     if instead:
-        assert "cannot be made one" in one_line(found, 4)
+        assert "cannot be created" in one_line(found, 4)
     else:
         assert found.exit_code in {0, 1}, found.output
         assert lir("report", done).exit_code in {0, 1}

@@ -173,7 +173,7 @@ def test_a_column_may_begin_on_beams(tmp_path: Path) -> None:
     assert "bearing-B2" not in frame.bearings
     assert frame.check().carried == pytest.approx(frame.check().weight)
     loose = project(tmp_path, planted, BEAMS)
-    refused(ProjectError, 'no column on line "B2" has its head or its foot', loose.frame)
+    refused(ProjectError, 'no column on line "B2" starts or ends there', loose.frame)
 
 
 def test_sections_of_rows_may_be_turned_or_of_the_catalogue(tmp_path: Path) -> None:

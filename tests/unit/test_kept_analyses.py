@@ -97,7 +97,7 @@ def test_runs_of_an_analysis_are_time_histories(level: Any, nothing_kept: list[i
 
 @pytest.mark.parametrize("level", ["auto", "rigid_body"])
 def test_an_analysis_has_one_equilibrium(level: str) -> None:
-    words = "has no equilibrium that runs share: use time_history"
+    words = "does not share gravity states between runs: use time_history"
     refused(ValueError, words, Analysis, building(), level)
     refused(TypeError, "frame = None must be a Frame", Analysis, None)
 

@@ -168,12 +168,12 @@ REFUSALS: list[tuple[str, Callable[..., Frame], tuple[Any, ...], dict[str, Any]]
     (r"without a bearing: \[\(0, 1\), \(1, 0\)\]", moment_frame, ((1, 1), 1), {"bearing": PAIR}),
     (WORDS, moment_frame, (), {"bearing": bearing()} | BOTH),
     (r"bays = 0 must be", moment_frame, ((0, 2),), {"bearing": bearing()}),
-    (r"storeys = 2.5 must be whole", moment_frame, ((1, 1), 2.5), {"bearing": bearing()}),
+    (r"storeys = 2.5 must be integers", moment_frame, ((1, 1), 2.5), {"bearing": bearing()}),
     (r"numbers of storeys differ", shear_building, (bearing(), [1e5, 1e5], [1e8] * 3), {}),
     (r"differ or are 0", shear_building, (bearing(), [], []), {}),
     (r"storey_stiffness \[N/m\] = -1e\+08", shear_building, (bearing(), 1e5, -1e8), {}),
     (r"give plan=\(bays, bay_width\)", shear_building, (PAIR, 1e5, 1e8), {}),
-    (r"without a plan: its floors do not ro", shear_building, (bearing(), 1e5, 1e7), LIGHT),
+    (r"needs a plan, because floors without a plan", shear_building, (bearing(), 1e5, 1e7), LIGHT),
     (r"\[-\] = 0\.7", shear_building, (bearing(), 1e5, 1e7), {"plan": ((1, 1), 6.0)} | STRONG),
 ]
 
@@ -205,7 +205,7 @@ def test_eccentricities_that_leave_columns_without_mass() -> None:
     moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(0.999 * bound, 0.0))
     for words, off in (
         (r"eccentricity = 0\.4 of the side.*at most 0\.\d+ here", (0.4, 0.0)),
-        ("together would leave a corner without", (0.15, 0.2)),
+        ("along both sides leaves a corner without", (0.15, 0.2)),
         ("eccentricity", (1.001 * bound, 0.0)),
     ):
         frame = {"bearing": bearing(), "eccentricity": off}

@@ -101,7 +101,7 @@ REFUSED = {
         (r'"m" has no local axes', lambda f: f.add_member("m", *FAR, COLUMN, up=(0, 0, 2))),
         (r"shape \(5,\), it must be \(6,\)", lambda f: f.add_spring("s", *FAR, (1.0,) * 5)),
         (r"not all 0", lambda f: f.add_spring("s", "base", "floor-1", (0.0,) * 6)),
-        (r"has 1 nodes, it needs 2", lambda f: f.add_diaphragm("d", ["floor-1"])),
+        (r"has 1 nodes: name at least 2", lambda f: f.add_diaphragm("d", ["floor-1"])),
         (
             r'not horizontal: node "floor-1" is at z = 3.12 m, node "floor-2" at z = 6.12',
             lambda f: f.add_diaphragm("d", ["floor-1", "floor-2"]),

@@ -88,7 +88,7 @@ def test_loads_come_as_they_stand(ops):
 def test_weights_and_loads_are_not_mixed_up(ops):
     portal(ops, loaded=False)
     with pytest.raises(
-        ModelError, match=r"vertical load of 0 N, its masses would weigh 2.942e\+05"
+        ModelError, match=r"vertical load of 0 N, but its masses weigh 2.942e\+05"
     ):
         Frame.from_opensees([1, 2], BEARING)
     portal(ops)
@@ -100,14 +100,14 @@ def test_weights_and_loads_are_not_mixed_up(ops):
 
 def test_a_base_without_mass_is_told(ops):
     portal(ops, base_mass=0.0)
-    with pytest.warns(ModelWarning, match="a base without mass rings, and steps become small"):
+    with pytest.warns(ModelWarning, match="vibrates at high frequency and steps become small"):
         Frame.from_opensees([1, 2], BEARING)
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"base_nodes": [1, 7]}, "no node 7, named as a base node"),
+        ({"base_nodes": [1, 7]}, "no node 7, but base_nodes"),
         ({"base_nodes": [1, 1]}, "lists node 1 more than once"),
         ({"base_nodes": []}, "base_nodes is empty"),
         ({"base_nodes": [1]}, "nodes 2 are supports that carry elements, but no base nodes: name"),
@@ -236,7 +236,7 @@ def test_elements_in_yield_are_refused_and_others_named(ops):
     ):
         Frame.from_opensees([1, 2], BEARING)
     yielding(ops, push=4e5)
-    with pytest.raises(ModelError, match=r"elements 1, 2 have left their initial stiffness"):
+    with pytest.raises(ModelError, match=r"elements 1, 2 no longer have their initial stiffness"):
         Frame.from_opensees([1, 2], BEARING)
     with pytest.warns(ModelWarning) as told:
         frame = Frame.from_opensees([1, 2], BEARING, accept_nonlinear=True)
@@ -366,7 +366,7 @@ def without_vertical_mass(ops, *, loaded):
 def test_vertical_mass_can_be_given(ops):
     without_vertical_mass(ops, loaded=True)
     with pytest.raises(
-        ModelError, match=r'3e\+04 kg along x, but no mass along the vertical .*"hor'
+        ModelError, match=r'3e\+04 kg along x, but no vertical mass .*"hor'
     ):
         Frame.from_opensees([1, 2], BEARING)
     frame = Frame.from_opensees([1, 2], BEARING, vertical_mass="horizontal")
@@ -375,7 +375,7 @@ def test_vertical_mass_can_be_given(ops):
     found = {name: own[at.index(name)] for name in ("1", "11", "12", "20")}
     assert found == pytest.approx({"1": 5e3, "11": 1e4, "12": 1e4, "20": 0.0})
     assert gravity(frame).axial_forces.sum() == pytest.approx(2e5)  # the loads alone
-    with pytest.warns(ModelWarning, match=r"along the vertical is 4000 kg, that along x 3e\+04 kg"):
+    with pytest.warns(ModelWarning, match=r"vertical mass is 4000 kg, the mass along x 3e\+04 kg"):
         few = Frame.from_opensees([1, 2], BEARING, vertical_mass={11: 3e3, 12: 1e3})
     assert gravity(few).axial_forces.sum() == pytest.approx(2e5)
     without_vertical_mass(ops, loaded=False)
@@ -383,7 +383,7 @@ def test_vertical_mass_can_be_given(ops):
     assert gravity(heavy).axial_forces.sum() == pytest.approx(9.81 * 3e4)
     for given, message in (
         ("all", "vertical_mass = 'all': give"),
-        ({20: 1.0}, "names node 20, which is not there or held vertically"),
+        ({20: 1.0}, "names node 20, which does not exist or is fixed vertically"),
         ({11: -1.0}, "vertical_mass .kg. of node 11"),
     ):
         with pytest.raises(ModelError, match=message):

@@ -104,7 +104,7 @@ def test_nonlinear_laws_are_named_with_their_share(ops):
     assert 5.0 < share < 50.0
     words = (
         r"elements Truss \(900\) are nonlinear, of Steel02: .* within 5 % up to a strain of "
-        rf"0\.001; they hold {share:.3g} % .* about {share / 10.0:.2g} % larger"
+        rf"0\.001; they have {share:.3g} % .* about {share / 10.0:.2g} % larger"
     )
     with pytest.warns(ModelWarning, match=words):
         take()
@@ -152,7 +152,7 @@ def test_what_no_stiffness_stands_for_is_refused(ops, add, material, words):
         take()
     with pytest.warns(ModelWarning) as told:
         Frame.from_opensees([1, 2, 3, 4], BEARING, gravity=9.81, accept_nonlinear=True)
-    assert "frozen at its present stiffness" in str(told[0].message)
+    assert "keeps the present stiffness" in str(told[0].message)
     # the remedy of the message
     assert "ops.remove('element', 900)" in str(refused.value)
     ops.remove("element", 900)

@@ -21,7 +21,7 @@ def nodes(ops, rise):
 
 def test_millimetres_are_told_and_the_remedy_helps(ops):
     nodes(ops, 1e3 * BEARING.height)
-    with pytest.raises(ValueError, match=r"a thousand times .* length_unit=0\.001"):
+    with pytest.raises(ValueError, match=r"1,000 times .* length_unit=0\.001"):
         place(ops, 1, 2, BEARING, None, 1.0, 1.0)
     place(ops, 1, 2, BEARING, None, 0.001, 1e3)
 

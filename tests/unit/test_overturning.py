@@ -134,8 +134,8 @@ def plane() -> Frame:
         (plane, ""),
         (lambda: lumped_mass(BEARING, MASS), ""),
         (lambda: lumped_mass(BEARING, MASS, inertia=(1e5, 1e5, 1e5)), ""),
-        (lambda: stick(overturning=False), "carry 0 % of an overturning moment"),
-        (lambda: stick(plan=None), "one bearing carries the whole model"),
+        (lambda: stick(overturning=False), "resist only 0 % of the overturning moment"),
+        (lambda: stick(plan=None), "the model has one bearing"),
     ],
 )
 def test_whether_bearings_follow_overturning_is_told_by_the_model(make, words):

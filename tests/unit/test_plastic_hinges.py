@@ -240,7 +240,7 @@ def test_concrete_has_its_largest_moment_at_balance():
     [
         ({}, "both infinite"),
         ({"moment_y": -1.0}, r"PlasticHinge: moment_y = -1 \[N m\]"),
-        ({"moment_y": 1.0, "axial_centre": 1.0}, "axial_centre without axial"),
+        ({"moment_y": 1.0, "axial_centre": 1.0}, "axial_centre needs axial"),
         ({"moment_y": 1.0, "axial": 1.0, "axial_centre": 2.0}, "smaller than axial"),
         ({"moment_y": 1.0, "axial": 1.0, "axial_exponent": 0.5}, "axial_exponent"),
         ({"moment_y": 1.0, "hardening": 1.0}, "hardening"),

@@ -201,12 +201,12 @@ def test_every_format_of_the_table_is_tried() -> None:
     [
         (csmip(2).replace("in cm/sec2", "in counts"), "the unit 'counts'.*volume 1 or 2"),
         (esm().replace("cm/s^2", "cm/s"), "the unit 'cm/s' is not an acc"),
-        (esm().replace("NDATA: 1000", "NDATA: 2000"), "names 2000 samples, and the file holds 10"),
-        (esm().replace("NDATA: 1000", "NDATA: 500"), "names 500 samples, and the file holds 1000"),
-        (esm().replace("NDATA: 1000", "x"), "names no number of samples or no time step"),
+        (esm().replace("NDATA: 1000", "NDATA: 2000"), "states 2000 samples, but the file has 10"),
+        (esm().replace("NDATA: 1000", "NDATA: 500"), "states 500 samples, but the file has 1000"),
+        (esm().replace("NDATA: 1000", "x"), "has no number of samples or no time step"),
         (cosmos().replace("0.010000", "0.005000"), "names 10 s, and 1000 .* of 0.005 s last 5 s"),
         (smc("1 UNCORRECTED", 1.7e38), "uncorrected record with uneven times.*volume 2"),
-        ("0.1\n0.2\n", 'is in no format that is read by name.*order="rows"'),
+        ("0.1\n0.2\n", 'is in no known format.*order="rows"'),
     ],
 )
 def test_what_cannot_be_used_is_refused(tmp_path: Path, text: str, words: str) -> None:
@@ -236,7 +236,7 @@ def test_padding_after_the_samples_is_left_out(tmp_path, text, count, spare):
     path.write_text(text + "0.0\n" * spare)
     assert len(read_record(path)[0].trace.acceleration) == count
     path.write_text(text + "0.0\n" * (spare + 1))
-    with pytest.raises(MotionError, match=f"names {count} samples, and the file holds"):
+    with pytest.raises(MotionError, match=f"states {count} samples, but the file has"):
         read_record(path)
 
 
@@ -270,8 +270,8 @@ def test_components_are_put_on_axes(folder: Path) -> None:
     assert_allclose(turned.components.T[:2], WAVES[1::-1], rtol=0.0, atol=1e-4)
     for paths, options, words in (
         ((), {}, "no file is given"),
-        (("CE1.V2", "A.UD"), {}, r"hold 4 components.*which directions are x, y and z, as in x"),
-        (("A.EW", "A.NS", "B.EW"), {}, r"hold 3 components.*which directions are x, y and z"),
+        (("CE1.V2", "A.UD"), {}, r"hold 4 components.*set the directions of x, y and z, for example x"),
+        (("A.EW", "A.NS", "B.EW"), {}, r"hold 3 components.*set the directions of x, y and z"),
         (("CE1.V2",), {"x": "45 Deg"}, "x = '45 Deg' is 0 of the directions 90 Deg, 360 Deg, Up"),
     ):
         with pytest.raises(MotionError, match=words):
@@ -309,7 +309,7 @@ def test_a_table_of_all_kinds(folder: Path, separator: str) -> None:
     ("row", "words", "cure"),
     [
         ("a,five.acc,m/s2,0.01,rows,", r"'title' is text.*skip=1 \(.*columns of", "1"),
-        ("a,CE1.V2,,,,", "holds 3 components.*column record, and directions", None),
+        ("a,CE1.V2,,,,", "holds 3 components.*column record, and the directions", None),
         ("a,five.acc,m/s2,0,01,rows,1", "line 2 has 7 cells, its head 6.*semicolons", None),
         ("a,five.acc,,,,", "need their unit in the column unit", None),
         ("a,five.acc,m/s2,soon,rows,1", "dt = soon is not a number", None),
@@ -408,7 +408,7 @@ def test_tables_of_offices_at_every_door(tmp_path: Path, door: str, kind: str) -
 def test_workbooks_that_cannot_be_read_say_why(tmp_path: Path, door: str, monkeypatch) -> None:
     rows, read, _ = DOORS[door]
     path = saved(tmp_path, [*rows[:-1], [datetime.date(2026, 1, 3), *rows[-1][1:]]], "workbook")
-    with pytest.raises(ValueError, match=r"row \d+: 2026-01-03.* is a date: .*format of text"):
+    with pytest.raises(ValueError, match=r"row \d+: 2026-01-03.* is a date: format the column as text"):
         read(path)
     path.write_bytes(b"none")
     with pytest.raises(ValueError, match=r"workbook.xlsx:? is not a readable workbook"):

@@ -128,7 +128,7 @@ def test_end_forces_go_with_the_nodes():
     [
         ({"k": HINGE}, "'k' is none; give ends"),
         ({"i": ("M",)}, "'M' is none; give ends"),
-        ({"i": ("T",), "j": ("T",)}, "torsion at both ends would let it spin"),
+        ({"i": ("T",), "j": ("T",)}, '"T" at both ends leaves the rotation'),
     ],
 )
 def test_refusals(releases, words):

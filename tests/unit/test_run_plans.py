@@ -182,7 +182,7 @@ def test_files_hold_the_periods_of_an_average(tmp_path: object) -> None:
 def test_what_cannot_be_written_is_told(tmp_path: object) -> None:
     curve = lognormal_fragility(2.0, 0.4)
     refused(TypeError, r"not a Fragility: .*save_fragility", save, curve, f"{tmp_path}/x.nc")  # type: ignore[arg-type]
-    refused(TypeError, "give them by name", write_tables, curve, f"{tmp_path}/tables")  # type: ignore[arg-type]
+    refused(TypeError, "pass tables by name", write_tables, curve, f"{tmp_path}/tables")  # type: ignore[arg-type]
     refused(TypeError, "found", save_fragility, 3.0, f"{tmp_path}/x.json")  # type: ignore[arg-type]
     write_tables({"curve": curve}, f"{tmp_path}/tables")  # type: ignore[dict-item]
     written = pd.read_csv(f"{tmp_path}/tables/curve.csv")

@@ -139,5 +139,5 @@ def test_what_cannot_be_is_refused():
     frame.add_superelement("s", ["n0", "n1", "n2"], good, -1e6 * good)
     with pytest.raises(ModelError, match='a superelement "s" exists already'):
         frame.add_superelement("s", ["n0", "n1", "n2"], good, good)
-    with pytest.raises(ModelError, match="there is negative mass near"):
+    with pytest.raises(ModelError, match="the mass is negative near"):
         assemble(frame)

@@ -115,7 +115,7 @@ def test_axial_loads_are_judged_where_the_model_tells_them(options: dict[str, bo
     assert programme["vertical load [N]"][~of_loads].notna().all()
     if options:
         assert all(c.title.endswith(": not evaluated") and not c.passed for c in checks)
-        assert all("supports of the model hold its tilt" in c.note for c in checks)
+        assert all("supports of the model restrain its tilt" in c.note for c in checks)
         assert programme["vertical load [N]"][of_loads].isna().all()
         assert programme["note"][of_loads].str.startswith("not evaluated: ").all()
     else:
