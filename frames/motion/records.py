@@ -218,7 +218,7 @@ def equal_lengths(given: dict[str, FloatArray]) -> dict[str, FloatArray]:
     for axis, values in given.items():
         if n - len(values) > limit:
             msg = (
-                f"{axis} has {len(values)} samples and {longest} has {n}(at most {limit} apart): "
+                f"{axis} has {len(values)} samples and {longest} has {n} (at most {limit} apart): "
                 "cut or extend them to one length, or check that they belong together"
             )
             raise MotionError(msg)

@@ -86,7 +86,7 @@ class TestAT2:
     def test_unit_of_line_3(self, write, line, factor):
         path = write("rec.AT2", at2_text(unit=line))
         if isinstance(factor, str):
-            words = rf"rec.AT2: the unit '{factor}' in line 3.*give the f"
+            words = rf"rec.AT2: the unit '{factor}' in line 3.*use the file"
             refused(MotionError, words, read_at2, path)
         else:
             wanted = np.array(VALUES) * factor
