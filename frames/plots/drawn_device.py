@@ -79,7 +79,7 @@ def require_own(data: xr.Dataset, name: str, bearing: object) -> None:
     unit = data[key].attrs.get("units", "")
     msg = (
         f"this device is not {name}: its {key} is {_shown(record[key])} {unit}, that of {name} "
-        f"{_shown(found[key][place])} {unit}; {whose}: leave the device out, the Dataset has its geometry"
+        f"{_shown(found[key][place])} {unit}; {whose}: leave it out, the Dataset has it"
     )
     raise ValueError(msg)
 

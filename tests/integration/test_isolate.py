@@ -240,7 +240,7 @@ def flat(ops):
         (None, {"length_unit": 0.0}, "length_unit = 0 "),
         (ghost, {}, r"nodes 50 were removed, but their fix was not: .*remove\('sp', 50, dof\)"),
         (grounded, {}, r"ties base node 2 to the fixed node 50: .*remove\('mp', 2\)"),
-        (lambda ops: ops.rigidDiaphragm(3, 1, 2), {}, "ties base node 2 to node 1: .*base_diaphragm=Fal"),
+        (lambda ops: ops.rigidDiaphragm(3, 1, 2), {}, "ties base node 2 to node 1: .*m=Fal"),
         (moved, {}, r"base node 2 has moved by 0\.02 m"),
         (flat, {"base_nodes": [50]}, "node 50 has 3 coordinates and 3 degrees of freedom"),
     ],

@@ -108,7 +108,7 @@ def test_other_elements_of_opensees_refuse_it() -> None:
         ("friction_heating", FrictionHeating()),
         ("pressure_dependence", PressureDependence()),
     ):
-        with pytest.raises(ValueError, match=f"elements of OpenSees does not support {name}: use be"):
+        with pytest.raises(ValueError, match=f"OpenSees does not support {name}: use be"):
             builtin_values(device(RADIUS, **{name: law}), LOAD)
 
 

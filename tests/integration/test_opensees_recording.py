@@ -130,7 +130,7 @@ def test_a_recording_is_the_dataset_of_frames(stand: Any) -> None:
 def test_every_so_many_steps_and_after_a_wipe(stand: Any) -> None:
     begin(stand)
     recording = record_bearings(1, every=7)
-    with pytest.raises(ValueError, match="no committed step since the recording began: call ops.analyze"):
+    with pytest.raises(ValueError, match=r"no committed step .* call ops\.analyze"):
         recording.dataset()
     moved = stand.run(50)
     before = recording.dataset()
