@@ -149,7 +149,7 @@ def test_what_cannot_be_mass():
     frame.set_mass_source({"wind": 1.0})
     refused(ModelError, 'node "d" that make mass pull upwards', assemble, frame)
     floating = Frame("space", gravity=0.0)
-    refused(ModelError, "gravity = 0 m/s2 cannot convert loads", floating.set_mass_source, {"D": 1.0})
+    refused(ModelError, "0 m/s2 cannot convert loads", floating.set_mass_source, {"D": 1.0})
 
 
 def test_a_mass_source_without_loads_is_a_doubt():
