@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from frames import GroundMotion
     from frames._types import FloatArray
     from lir_element import LIRBearing
+    from lir_element.device.features import Level
 
 GRAVITY = 9.80665
 PLANE = 1e4  # m: radius of the hollow sphere that stands for the plane
@@ -312,7 +313,12 @@ def building_frame(bearing: LIRBearing, mass: float) -> Frame:
 
 
 def building_history(
-    bearing: LIRBearing, mass: float, motion: GroundMotion, duration: float, step: float = 0.005
+    bearing: LIRBearing,
+    mass: float,
+    motion: GroundMotion,
+    duration: float,
+    step: float = 0.005,
+    level: Level = "pendulum",
 ) -> History:
     """Run the same building in Exudyn with the element; return its first bearing's motion.
 
@@ -341,7 +347,9 @@ def building_history(
         markerNumber=centre, loadVector=[0, 0, -mass * GRAVITY], loadVectorUserFunction=load
     )
     system.AddLoad(weight)
-    bearings = [ExudynBearing(system, bearing, (node, (x, y, -CENTRE))) for x, y in CORNERS]
+    bearings = [
+        ExudynBearing(system, bearing, (node, (x, y, -CENTRE)), level=level) for x, y in CORNERS
+    ]
     commit, first, rows = after_step(bearings), bearings[0].element, []
 
     def record(system: Any, time: float) -> bool:

@@ -24,7 +24,7 @@ from validation.multibody import (
     multibody_history,
 )
 from validation.page import Check, Claim, Page, render, run, stated
-from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing
+from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, TCU065, example_bearing
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -51,8 +51,11 @@ VARIANTS = {
     "zone of friction twice as wide, half the step": Options(zone=2e-3, step=1e-4),
     "24 points a face": Options(rings=3),
 }
+FINE = Options(zone=5e-4, step=1e-4)
 STEADY = 5  # samples of 1 ms
 WEIGHT = EXAMPLE_MASS * GRAVITY
+CHI_CHI = (0.9, 20.0, 12.0)
+"""Of TCU065: a factor on its east component, begin and length of the part [s]."""
 
 
 class Measures(NamedTuple):
@@ -99,11 +102,12 @@ def measures(h: History, samples: int = STEADY) -> Measures:
     )
 
 
-def reference(motion: GroundMotion, elastic: float) -> History:
+def reference(motion: GroundMotion, elastic: float, duration: float = DURATION) -> History:
     """Run the level 'rigid_body', whose friction slides elastically by that much [m] before slip."""
     model = lumped_mass(example_bearing(yield_displacement=elastic), EXAMPLE_MASS)
-    data = time_history(model, motion, level="rigid_body", dt=1e-3, duration=DURATION)
-    return history_of(data)
+    data = time_history(model, motion, level="rigid_body", dt=1e-3, duration=duration)
+    vertical = -data["bearing_force"].sel(axis="z").mean("bearing").to_numpy()
+    return history_of(data)._replace(axial=vertical)  # `axial_force` is along the slider's axis
 
 
 def history_of(data: xr.Dataset) -> History:
@@ -119,6 +123,29 @@ def history_of(data: xr.Dataset) -> History:
     )
 
 
+class Touch(NamedTuple):
+    """A slider that arrives at a rim for the first time."""
+
+    speed: float
+    """Half of that of the plate [m/s]."""
+    force: float
+    """Of the rim's damper at this speed, over the weight [-]."""
+    mass: float
+    """Of one half of the slider [kg]."""
+    time: float
+    """In which the damper stops it [s]."""
+
+
+def first_touch(h: History) -> Touch:
+    """Return the first touch of a rim."""
+    bearing, at = example_bearing(), int(np.argmax(h.rim > 0.0))
+    speed = 0.5 * abs(np.gradient(h.displacement, h.time)[at - 1])
+    damping = float(bearing.resolved()["rim_damping"])
+    volume = np.pi * bearing.slider_radius**2 * 0.5 * bearing.slider_height
+    mass = bearing.slider_density * volume
+    return Touch(speed, damping * speed / WEIGHT, mass, mass / damping)
+
+
 def apart(first: History, second: History, name: str) -> float:
     """Return the largest distance of two histories over the peak of the first [-]."""
     one, two = getattr(first, name), getattr(second, name)
@@ -126,23 +153,54 @@ def apart(first: History, second: History, name: str) -> float:
     return float(distance.max() / np.abs(one).max())
 
 
-def checks(multibody: History, near: History, default: History) -> list[Check]:
-    """Compare the runs."""
-    found, want, usual = measures(multibody), measures(near), measures(default)
+def alike(record: str, multibody: History, near: History) -> list[Check]:
+    """Compare both programs under a record, friction of this one as good as rigid."""
+    found, want = measures(multibody), measures(near)
     elastic = f"rigid_body, elastic sliding {1e3 * NEARLY_RIGID:g} mm"
     return stated(f"""
-        peak displacement | {elastic} | {want.peak} mm ± 0.5 % | {found.peak}
-        time of the peak | {elastic} | {want.when} s ± 0.1 % | {found.when}
-        first contact of a rim | {elastic} | {want.first} s ± 0.1 % | {found.first}
-        slip before it | paper, Fig. 6(a): none | < 0.3 mm | {found.before}
-        slip at the end | {elastic} | {want.slip} mm ± 2 % | {found.slip}
-        largest lateral force over the weight | {elastic} | {want.force} ± 1 % | {found.force}
-        largest axial force over the weight | {elastic} | {want.heavy} ± 1 % | {found.heavy}
-        smallest axial force over the weight | {elastic} | {want.light} ± 1 % | {found.light}
-        work of the lateral force | {elastic} | {want.work} kJ ± 1 % | {found.work}
-        largest distance of both displacements over the peak | {elastic} | < 0.01 | {apart(multibody, near, "displacement")}
-        peak displacement, default elastic sliding | rigid_body as it is | {usual.peak} mm ± 3 % | {found.peak}
+        {record}: peak displacement | {elastic} | {want.peak} mm ± 1 % | {found.peak}
+        {record}: time of the peak | {elastic} | {want.when} s ± 0.1 % | {found.when}
+        {record}: first contact of a rim | {elastic} | {want.first} s ± 0.1 % | {found.first}
+        {record}: slip at the end | {elastic} | {want.slip} mm ± 2 % | {found.slip}
+        {record}: largest lateral force over the weight | {elastic} | {want.force} ± 1 % | {found.force}
+        {record}: largest axial force over the weight | {elastic} | {want.heavy} ± 1 % | {found.heavy}
+        {record}: smallest axial force over the weight | {elastic} | {want.light} ± 1 % | {found.light}
+        {record}: work of the lateral force | {elastic} | {want.work} kJ ± 1 % | {found.work}
+        {record}: largest distance of both displacements over the peak | {elastic} | < 0.01 | {apart(multibody, near, "displacement")}
         """)
+
+
+def checks(multibody: History, near: History, default: History) -> list[Check]:
+    """Compare the runs under Newhall."""
+    found, usual = measures(multibody), measures(default)
+    return alike("Newhall", multibody, near) + stated(f"""
+        Newhall: slip before rim contact | paper, Fig. 6(a): none | < 0.3 mm | {found.before}
+        Newhall: peak displacement, default elastic sliding | rigid_body as it is | {usual.peak} mm ± 3 % | {found.peak}
+        """)
+
+
+def chi_chi(folder: Path) -> tuple[list[Check], dict[str, Measures], float]:
+    """Run both programs under a part of TCU065; nothing if the folder has no such record.
+
+    The last number is the peak of Exudyn at half the step and half the zone of friction [mm].
+    """
+    if not all((folder / name).is_file() for name in TCU065):
+        return [], {}, 0.0
+    x, y, z = (folder / name for name in TCU065)
+    record = GroundMotion.from_columns(x=x, y=y, z=z, dt=0.005, unit="g", name="TCU065")
+    factor, begin, duration = CHI_CHI
+    first, samples = round(begin / record.dt), round(duration / record.dt)
+    motion = GroundMotion(x=factor * record.x[first : first + samples], dt=record.dt)
+    found = multibody_history(example_bearing(), EXAMPLE_MASS, motion, duration)
+    fine = multibody_history(example_bearing(), EXAMPLE_MASS, motion, 0.75 * duration, FINE)
+    near, default = (reference(motion, e, duration) for e in (NEARLY_RIGID, ELASTIC[0]))
+    rows = {f"Exudyn {version('exudyn')}": found}
+    rows |= {
+        f"rigid_body, elastic sliding {1e3 * e:g} mm": h
+        for e, h in ((ELASTIC[0], default), (NEARLY_RIGID, near))
+    }
+    checked = alike("TCU065", found, near)
+    return checked, {name: measures(h) for name, h in rows.items()}, measures(fine).peak
 
 
 def buildings(motion: GroundMotion) -> tuple[list[Check], dict[str, Measures]]:
@@ -203,17 +261,21 @@ def page(folder: Path | None) -> Page:
         f"rigid_body, elastic sliding {1e3 * elastic:g} mm": measures(h)
         for elastic, h in levels.items()
     }
+    tcu_checks, tcu, fine = chi_chi(folder)
     more, both = buildings(motion)
     spike = max(np.abs(h.force).max() / WEIGHT for h in bodies.values())
     return Page(
         CLAIM,
         f"peak {found.peak:.1f} mm beside {want.peak:.1f} mm ({usual.peak:.1f} mm with the default elastic sliding), "
         f"slip at the end {found.slip:.1f} mm beside {want.slip:.1f} mm",
-        checks(first, near, default) + more,
+        checks(first, near, default) + tcu_checks + more,
         render(
             globals(),
             rows=rows,
             both=both,
+            tcu=tcu,
+            fine=fine,
+            touch=first_touch(first),
             spike=spike,
             options=Options(),
             usual=usual,
