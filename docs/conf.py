@@ -36,6 +36,7 @@ extensions = [
     "command",  # docs/_ext
     "formulas",
     "objects",
+    "sample",
 ]
 root_doc = "docs/index"
 include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/**"]
@@ -83,6 +84,7 @@ if not RUN:  # the tree of all pages beside each page, made anew for each, is a 
     furo._compute_navigation_tree = lambda _: ""
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+html_extra_path = ["generated/sample"]  # the extension sample
 html_math_renderer = "mathml"  # drawn by the browser itself, without a network
 html_title = f"LIR-DCFP {release}"
 html_additional_pages = {"index": "to_start.html"}

@@ -2,11 +2,13 @@
 
 `autosummary` hangs the page of each object into the tree of contents; with 250 of them the list at
 the left is of no use, and writing it takes most of a build. Each page of an object begins with a
-link to its area instead.
+link to its area instead. Links between pages have titles in place of files' names.
 """
 
 from __future__ import annotations
 
+import posixpath
+import re
 from typing import TYPE_CHECKING
 
 from docutils import nodes
@@ -44,8 +46,19 @@ def link_area(app: Sphinx, tree: nodes.document, page: str) -> None:
         section.insert(1, where)
 
 
+def name_pages(app: Sphinx, tree: nodes.document, page: str) -> None:
+    """Give links whose text is a file's name, "guide.md", the title of that page."""
+    for link in tree.findall(nodes.reference):
+        path, _, _ = link.get("refuri", "").partition("#")
+        target = posixpath.normpath(posixpath.join(posixpath.dirname(page), path))
+        title = app.env.titles.get(target.removesuffix(".html"))
+        if title is not None and re.fullmatch(r"[\w/.]+\.md", link.astext()):
+            link.children = [nodes.inline("", title.astext())]
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Connect both."""
+    """Connect all."""
     app.connect("doctree-read", unlist, priority=100)  # before the tree of contents is collected
     app.connect("doctree-resolved", link_area)
+    app.connect("doctree-resolved", name_pages)
     return {"parallel_read_safe": False, "parallel_write_safe": True}

@@ -57,6 +57,7 @@ def measure(text: str) -> Measure:
 
 
 WORDS = ("what", "where")
+LONGEST = 2500
 BOUNDS = Measure(mean=19.0, long=0.08, what=2.0, where=2.0)
 
 
@@ -93,3 +94,16 @@ def test_docstrings_begin_with_an_action_or_a_quantity(package: str) -> None:
     found = measure(prose_of("\n\n".join(texts)))
     assert found.long <= 0.02
     assert max(found.what, found.where) <= 0.5
+
+
+def test_pages_are_short():
+    """At most 2,500 words but for theory, tables that are generated, and the study."""
+    free = ("theory", "provisions", "standings")
+    long = {
+        page: count
+        for page in PAGES
+        if (count := len((ROOT / page).read_text(encoding="utf-8").split())) > LONGEST
+        and not Path(page).name.startswith(free)
+    }
+    assert not long
+    assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= 110

@@ -79,7 +79,7 @@ def campaign_file(path: str | Path) -> CampaignFile:
             parameters=(keys | None, None),
         )
 
-    return read_file(path, kind, "docs/campaigns.md shows one")
+    return read_file(path, kind, "docs/campaigns_file.md shows one")
 
 
 def _read(given: CampaignFile | str | Path) -> CampaignFile:

@@ -165,7 +165,7 @@ class ExpectedLoss:
 
     Examples
     --------
-    "Campaigns: very many time histories" (docs/campaigns.md), its section Loss.
+    "Campaigns from a file" (docs/campaigns_file.md), its section Loss.
     """
 
     curves: pd.DataFrame
@@ -224,7 +224,7 @@ def expected_loss(
 
     Examples
     --------
-    "Campaigns: very many time histories" (docs/campaigns.md), its section Loss.
+    "Campaigns from a file" (docs/campaigns_file.md), its section Loss.
     """
     cost = require_positive("replacement", replacement, error=FragilityError)
     hazards = {"": hazard} if isinstance(hazard, HazardCurve) else dict(hazard)
