@@ -45,6 +45,7 @@ exclude_patterns += ["docs/generated/cli.md", "docs/README.md"]  # part of cli.m
 templates_path = [str(HERE / "_templates")]  # autosummary would look beside the repository
 myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_heading_anchors = 4
+smartquotes_action = "qe"  # "--verify" keeps its dashes
 default_role = "code"
 
 autosummary_generate = True

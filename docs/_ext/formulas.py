@@ -47,7 +47,8 @@ def mathml(text: str, *, block: bool) -> str:
 
 def write_inline(writer: HTML5Translator, node: nodes.math) -> None:
     """Write a formula within a line."""
-    writer.body.append(mathml(node.astext(), block=False))
+    formula = mathml(node.astext(), block=False)
+    writer.body.append(f'<span class="inline-formula">{formula}</span>')
     raise nodes.SkipNode
 
 
