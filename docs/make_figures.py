@@ -10,6 +10,7 @@ bodies fit one picture; everything in it is to that scale. The figure of the dem
 from __future__ import annotations
 
 import contextlib
+import re
 import shutil
 import tempfile
 from itertools import pairwise
@@ -300,13 +301,27 @@ def demo_sections() -> Figure:
     return bearing_sections(data, worst_bearing(data))
 
 
-def example() -> None:
-    """Run the example of README.md, which draws `docs/figures/example.png`."""
-    text = (DOCS.parent / "README.md").read_text(encoding="utf-8")
-    code = text.partition("```python\n")[2].partition("```")[0]
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-        exec(compile(code, "README.md", "exec"), {})  # the page's own code  # noqa: S102
-        shutil.copy("loops.png", DOCS / "figures" / "example.png")
+def drawn_by_pages() -> None:
+    """Run the blocks of README.md and of the guide; keep the figures that they save."""
+    block = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
+    for names, kept in PAGES.items():
+        text = "".join((DOCS / name).read_text(encoding="utf-8") for name in names)
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            space: dict[str, object] = {"__name__": "page"}
+            for code in block.findall(text):
+                exec(compile(code, names[0], "exec"), space)  # the page's own code  # noqa: S102
+            for drawn, name in kept.items():
+                shutil.copy(drawn, DOCS / "figures" / name)
+
+
+PAGES = {
+    ("../README.md",): {"loops.png": "example.png"},
+    ("guide.md", "guide_building.md", "guide_results.md"): {
+        f"{name}.png": f"guide-{name}.png"
+        for name in ("hinges", "links", "loops", "histories", "sections", "model", "plan")
+    },
+}
+"""Figures of pages whose blocks run one after the other: the name there, and in docs/figures."""
 
 
 THEORY = {
@@ -331,7 +346,7 @@ def main() -> None:
     for name, figure in how_figures.pictures(static_test_bearing()).items():
         figure.savefig(DOCS / "figures" / f"how-{name}.png", dpi=150)
     hysteresis().savefig(DOCS / "figures" / "hysteresis.png", dpi=130)
-    example()
+    drawn_by_pages()
     demo_sections().savefig(DOCS / "figures" / "demo-sections.png", dpi=120)
 
 
