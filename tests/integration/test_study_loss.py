@@ -13,7 +13,7 @@ from frames.risk.campaign.loss import annual_losses
 from lir_element import DesignWarning
 from lir_element.units import STANDARD_GRAVITY
 from validation.study.runner import HERE, files_of
-from validation.study.uncertainty import halves
+from validation.study.uncertainty import changes
 
 # Hazard, consequences, annual loss
 
@@ -93,13 +93,16 @@ def test_annual_loss_under_a_power_law():
     assert float(found) == pytest.approx(5e-4 * (2.0 - 0.25) + 1e-3 / 16.0, rel=1e-4)
 
 
-def test_halves_of_a_property():
-    """By hand: of a none and half collapse below and above the median, of b half and all."""
-    over = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, np.nan]
-    values = np.array([1.0, 2.0, 5.0, 6.0, 1.0, 2.0, 5.0, 6.0, 3.0])
-    found = halves(over, values, list("aaaabbbba"))
-    # lower 0 and 1/2, upper 1/2 and 1; the run of 3.0 is unknown
-    assert found == pytest.approx([0.25, 0.75, 0.5, 0.5, 0.5])
+def test_a_plane_tells_properties_apart():
+    """The second property goes with the first, and changes nothing; a run is unknown."""
+    rng = np.random.default_rng(2)
+    ranks = rng.random((80, 2))
+    ranks[:, 1] = 0.5 * (ranks[:, 0] + ranks[:, 1])
+    over = np.concatenate([0.4 * ranks[:, 0], 0.8 * ranks[:, 0] + 0.1])
+    over[3] = np.nan
+    found = changes(over, np.tile(ranks, (2, 1)), np.repeat(["a", "b"], 80))
+    assert found[0] == pytest.approx([0.3, 0.2, 0.4])
+    assert found[1] == pytest.approx([0.0, 0.0, 0.0], abs=1e-9)
 
 
 @pytest.mark.parametrize("part", ["records", "after", "motions", "loss", "uncertainty"])

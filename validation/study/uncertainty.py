@@ -1,11 +1,11 @@
-"""Numbers of the part on uncertain properties: collapse in the halves of each property's range."""
+"""Numbers of the part on uncertain properties: how each changes the share of collapse."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
+from scipy.stats import rankdata
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,7 +20,7 @@ SHOWN = ("storey drift, mean", "floor acceleration in plan, mean", "base shear o
 
 
 def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
-    """Return shares of collapse of all runs and of halves, by device and property."""
+    """Return shares of collapse, and how each property changes them, by device."""
     tables = every["uncertainty"]
     comparison, data = tables.comparison, tables.data
     assert comparison is not None
@@ -30,31 +30,46 @@ def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
     for device, runs in tables.runs.items():
         own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == device))
         over, records = runs.exceeded(comparison.collapse), own["motion"].to_numpy().astype(str)
-        shares = {name: halves(over, own[name].to_numpy(), records) for name in names}
-        found[device] = {"share": float(np.nanmean(over)), "halves": shares}
+        ranks = np.array([rankdata(own[name].to_numpy()) / len(over) for name in names])
+        found[device] = {"share": float(np.nanmean(over))}
+        found[device]["changes"] = dict(zip(names, changes(over, ranks.T, records), strict=True))
     return found
 
 
-def halves(over: npt.ArrayLike, values: npt.NDArray[Any], records: npt.ArrayLike) -> list[float]:
-    """Return shares of collapse below and above the median of a property, and their difference.
+def changes(
+    over: npt.NDArray[Any], ranks: npt.NDArray[Any], records: npt.NDArray[Any]
+) -> list[list[float]]:
+    """Return the change of the share of collapse from a property's lower to its upper half.
 
-    Ends of its interval of 90 % follow, by resampling records.
+    Slopes of a plane through the runs of each record over the ranks (runs, properties) [-], times
+    the half that is between the middles of both; mean and interval of 90 % by resampling records.
     """
-    frame = pd.DataFrame({"over": over, "upper": values > np.median(values), "record": records})
-    lower, upper = frame.pivot_table("over", "record", "upper").dropna().to_numpy().T
-    drawn = np.random.default_rng(1).integers(0, len(lower), (DRAWS, len(lower)))
-    ends = np.quantile((upper - lower)[drawn].mean(axis=1), [0.05, 0.95])
-    return [float(v) for v in (lower.mean(), upper.mean(), (upper - lower).mean(), *ends)]
+    each = []
+    for name in np.unique(records):
+        own = (records == name) & ~np.isnan(over)
+        of = np.column_stack([ranks[own], np.ones(own.sum())])
+        each.append(0.5 * np.linalg.lstsq(of, over[own], rcond=None)[0][:-1])
+    found = np.array(each)
+    drawn = np.random.default_rng(1).integers(0, len(found), (DRAWS, len(found)))
+    ends = np.quantile(found[drawn].mean(axis=1), [0.05, 0.95], axis=0)
+    return np.column_stack([found.mean(axis=0), *ends]).tolist()
 
 
 def change(row: list[float]) -> str:
-    """Return shares of both halves, and the difference with its interval, in per cent."""
-    lower, upper, more, low, high = (f"{100.0 * value:.0f}" for value in row)
-    return f"{lower}, {upper}; {more} ({low} to {high})"
+    """Return a change with its interval, in per cent."""
+    return "{:+.0f} ({:+.0f} to {:+.0f})".format(*(100.0 * value for value in row))
 
 
-def deciding(own: Mapping[str, Any]) -> str:
-    """Return the properties whose halves differ, the largest difference first."""
-    rows = {name: row for name, row in own["halves"].items() if row[3] > 0.0 or row[4] < 0.0}
-    found = sorted(rows, key=lambda name: -abs(rows[name][2]))
-    return ", ".join(f"`{name}` {100.0 * rows[name][2]:+.0f} %" for name in found) or "none"
+def index(row: Mapping[str, Any]) -> str:
+    """Return a total index with its interval; a dash if it is not known."""
+    value, low, high = (row[f"total{end} [-]"] for end in ("", ", low", ", high"))
+    return f"{value:.2f} ({low:.2f} to {high:.2f})" if value >= 0.0 else "-"
+
+
+def deciding(own: Mapping[str, Any], device: str) -> str:
+    """Return the properties whose change is beyond the error of the plane, the largest first."""
+    error = abs(own["DCFP"]["changes"]["interface_friction_factor"][0]) + 1e-9
+    rows = own[device]["changes"]
+    rows = {name: row for name, row in rows.items() if row[1] > error or row[2] < -error}
+    found = sorted(rows, key=lambda name: -abs(rows[name][0]))
+    return ", ".join(f"`{name}` {100.0 * rows[name][0]:+.0f} %" for name in found) or "none"
