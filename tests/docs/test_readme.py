@@ -13,6 +13,12 @@ from pathlib import Path
 
 import pytest
 
+from validation.page import table
+from validation.study import near_fault as pulses
+from validation.study.device import LIMITS, LIR, REFERENCE, RIMS
+from validation.study.rounded import with_interval
+from validation.study.summary import COLLAPSE, DCFP, pairs, parts_of
+
 ROOT = Path(__file__).parents[2]
 PAGES = (
     "README.md",
@@ -99,3 +105,39 @@ def test_every_code_block_has_a_language(page: str) -> None:
     fences = re.findall(r"^```(.*)$", (ROOT / page).read_text(encoding="utf-8"), re.MULTILINE)
     assert set(fences[::2]) <= {"python", "text"}
     assert not any(fences[1::2])
+
+
+def when_it_helps() -> str:
+    """Return the table of the README and the words after it, from the numbers of the study."""
+    parts = parts_of()
+    own, near = (parts[name]["own"] for name in ("device", "near_fault"))
+    words, lines = {"better": "helps", "worse": "worse"}, []
+    ends = {
+        f"equal {terms}, rims {text}": (terms, f"{size}, {rims}")
+        for terms, size in (("plan", REFERENCE), ("moat", "517 mm"))
+        for text, rims in (("of W", RIMS[0]), ("unbreakable", RIMS[1]))
+    }
+    for limit in LIMITS:
+        rows = [pairs(own, limit, terms, end)[0] for terms, end in ends.values()]
+        cells = (f"{words.get(r['verdict'], 'alike')}: {with_interval(r['ratio'])}" for r in rows)
+        lines.append([limit, *cells])
+    ratios = [
+        pairs(own, COLLAPSE, end=f"{REFERENCE}, {rims}", level=1)[0]["ratio"] for rims in RIMS[:2]
+    ]
+    simple = " and ".join(map(with_interval, ratios))
+    cells, cost = pulses.counts(near, pulses.PLAN), own["devices"]
+    price = sum(cost[LIR]["cost"].values()) / sum(cost[DCFP]["cost"].values())
+    better, worse = cells[pulses.LIR_BETTER], cells[pulses.PLAIN_BETTER]
+    return f"""{table(["limit", *ends], lines)}
+
+Near-fault pulses: both devices of equal plan stand in {pulses.both(cells)} of {sum(cells.values())}
+cells of a map. The LIR-DCFP is better in {better} of them, the DCFP in {worse}. The DCFP alone
+stands in {cells[pulses.PLAIN_ONLY]}, the LIR-DCFP alone in {cells[pulses.LIR_ONLY]}. At level
+`pendulum`, without bodies, collapse at equal plan is {simple}.
+The LIR-DCFP costs {price:.2f} times as much as the DCFP of its plan, by assumed prices."""
+
+
+def test_the_readme_says_when_it_helps_by_the_numbers_of_the_study() -> None:
+    found = when_it_helps()
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert " ".join(found.split()) in " ".join(text.split()), found

@@ -202,7 +202,9 @@ def turning_prices(
     dcfps = {
         max(map(dish_diameter, bearings_of(frame))): margins[name]
         for name, frame in frames.items()
-        if name.endswith(f", {rims}") and math.isfinite(margins.get(name, math.nan))
+        if name.startswith("DCFP")
+        and name.endswith(rims)
+        and math.isfinite(margins.get(name, math.nan))
     }
     plans, known = np.array(sorted(dcfps)), [dcfps[plan] for plan in sorted(dcfps)]
     wanted = margins.get(LIR, math.nan)
@@ -255,7 +257,9 @@ def figures(campaigns: Mapping[str, Any], own: Own) -> dict[str, Figure]:
     return found
 
 
-def _legend(figure: Figure, names: Sequence[str]) -> None:
+def legend(figure: Figure) -> None:
+    """Put the legend of the LIR-DCFP, and of the DCFP by its rims, above a figure."""
+    names = ("LIR-DCFP", *(f"DCFP, {rims}" for rims in RIMS))
     handles = [
         Line2D([], [], label=name, marker=MARKERS[k], markersize=3.5, **ps.line_of(k))
         for k, name in enumerate(names)
@@ -282,7 +286,7 @@ def terms_figure(own: Own, terms: str, considered: float) -> Figure:
         panel.set_ylim(-2.0, 103.0)
         title = f"plan {label}" if terms == "plan" else f"DCFP {label}"
         ps.caption(panel, title=title, x="Sa(3 s) [m/s2]", y="share of collapse [%]")
-    _legend(figure, ("LIR-DCFP", *(f"DCFP, {rims}" for rims in RIMS)))
+    legend(figure)
     return figure
 
 
@@ -312,26 +316,37 @@ def margins_figure(own: Own, margins: Mapping[str, Any]) -> Figure:
             at = [1e3 * own["devices"][name]["plan"] + 4.0 * (k - 1.5) for name in names]
             _margin_line(panel, margins[level], names, at, k)
         ps.caption(panel, title=f"level {level}", x="plan [mm]", y="collapse margin [-]")
-    _legend(figure, ("LIR-DCFP", *(f"DCFP, {rims}" for rims in RIMS)))
+    legend(figure)
     return figure
+
+
+AXES = {"plan": "plan [mm]", "moat": "moat [mm]", "cost": "cost of nine bearings [t of steel]"}
+"""What margins are drawn over, by the name of a size."""
+
+
+def margins_over(panel: Axes, own: Own, margins: Any, key: str) -> None:
+    """Draw collapse margins of all devices over a size of `AXES`, a line a kind of rims."""
+    for k, end in enumerate(("", *(f", {rims}" for rims in RIMS))):
+        start = "DCFP " if end else "LIR-DCFP "
+        names = [n for n in own["devices"] if n.startswith(start) and n.endswith(end)]
+        names = [n for n in names if end or n.removeprefix(start) in PLANS]
+        sizes = {n: own["devices"][n][key] for n in names}
+        at = {
+            n: 1e-3 * sum(v.values()) if key == "cost" else 1e3 * v + 4.0 * (k - 1.5)
+            for n, v in sizes.items()
+        }
+        names.sort(key=lambda name, at=at: at[name])  # type: ignore[misc]
+        _margin_line(panel, margins, names, [at[name] for name in names], k)
+    ps.caption(panel, x=AXES[key], y="collapse margin [-]")
 
 
 def price_figure(own: Own, margins: Any) -> Figure:
     """Return collapse margins over the cost of nine bearings and over the moat."""
     figure = ps.new_figure(3.2)
     (panels,) = ps.grid_of(figure, 1, 2, share_y=True)
-    texts = {"cost": "cost of nine bearings [t of steel]", "moat": "moat [mm]"}
-    for panel, (key, text) in zip(panels, texts.items(), strict=True):
-        for k, end in enumerate(("", *(f", {rims}" for rims in RIMS))):
-            start = "DCFP " if end else "LIR-DCFP "
-            names = [n for n in own["devices"] if n.startswith(start) and n.endswith(end)]
-            names = [n for n in names if end or n.removeprefix(start) in PLANS]
-            sizes = {n: own["devices"][n][key] for n in names}
-            at = {n: 1e-3 * sum(v.values()) if key == "cost" else 1e3 * v for n, v in sizes.items()}
-            names.sort(key=lambda name, at=at: at[name])  # type: ignore[misc]
-            _margin_line(panel, margins, names, [at[name] for name in names], k)
-        ps.caption(panel, x=text, y="collapse margin [-]")
-    _legend(figure, ("LIR-DCFP", *(f"DCFP, {rims}" for rims in RIMS)))
+    for panel, key in zip(panels, ("cost", "moat"), strict=True):
+        margins_over(panel, own, margins, key)
+    legend(figure)
     return figure
 
 

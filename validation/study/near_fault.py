@@ -253,9 +253,9 @@ def map_figure(own: Own) -> Figure:
     for row, pair in zip(grid, (PLAN, MOAT), strict=True):
         for panel, (title, of) in zip(row, {**keys, "drift": ("drift",)}.items(), strict=True):
             found = verdicts(own, pair, of) if of else _by_failure(own, pair)
-            _draw(panel, own, pair, found, f"{title},\nequal {pair}")
+            draw_cells(panel, own, pair, found, f"{title},\nequal {pair}")
     _labels(grid)
-    ps.add_legend(figure, _handles(), columns=3)
+    ps.add_legend(figure, legend_handles(), columns=3)
     return figure
 
 
@@ -274,9 +274,9 @@ def decision_figure(own: Own) -> Figure:
     pairs = [[f"plan {plan} mm" for plan in PLANS], [f"moat {moat} mm" for moat in MOATS]]
     for row, own_pairs in zip(grid, pairs, strict=True):
         for panel, pair in zip(row, own_pairs, strict=False):
-            _draw(panel, own, pair, verdicts(own, pair), f"limited: {pair}")
+            draw_cells(panel, own, pair, verdicts(own, pair), f"limited: {pair}")
     grid[0][2].set_axis_off()
-    grid[0][2].legend(handles=_handles(), loc="center", fontsize=ps.SMALL, frameon=False)
+    grid[0][2].legend(handles=legend_handles(), loc="center", fontsize=ps.SMALL, frameon=False)
     _labels(grid)
     return figure
 
@@ -288,8 +288,8 @@ def _labels(grid: Sequence[Sequence[Axes]]) -> None:
         ps.caption(panel, x="T_p / T_b [-]")
 
 
-def _draw(panel: Axes, own: Own, pair: str, found: npt.NDArray[Any], title: str) -> None:
-    # Cells, and lines below the first cell of each period in which a bearing fails.
+def draw_cells(panel: Axes, own: Own, pair: str, found: npt.NDArray[Any], title: str) -> None:
+    """Draw cells, and lines below the first cell of each period in which a bearing fails."""
     panel.grid(visible=False)
     for (y, x), kind in np.ndenumerate(found):
         face, hatch, letter, _ = LOOKS[int(kind)]
@@ -322,7 +322,8 @@ def _draw(panel: Axes, own: Own, pair: str, found: npt.NDArray[Any], title: str)
     panel.title.set_fontsize(ps.SMALL)
 
 
-def _handles() -> list[Any]:
+def legend_handles() -> list[Any]:
+    """Return the entries of a legend of cells and lines."""
     patches = [
         Patch(facecolor=face, hatch=hatch, edgecolor=ps.GREY, label=text)
         for face, hatch, _, text in LOOKS.values()

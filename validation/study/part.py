@@ -1,9 +1,8 @@
-"""What all parts of the study share: their options, running a campaign, writing page and numbers."""
+"""What all parts of the study share: running a campaign without warnings, and its cost."""
 
 from __future__ import annotations
 
 import datetime
-import json
 import os
 import platform
 import resource
@@ -16,16 +15,11 @@ from frames import ModelWarning, MotionWarning
 from lir_element import DesignWarning
 from lir_element.errors import AnalysisWarning
 from validation.measurements.benchmark import processor
-from validation.page import DPI, FOLDER
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Mapping
-
-    from matplotlib.figure import Figure
+    from collections.abc import Generator
 
     from frames.risk import Campaign
-
-    Found = Mapping[str, Any]
 
 
 @contextmanager
@@ -82,21 +76,3 @@ def client_of(workers: int | str) -> Generator[tuple[int | None, Any], None, Non
 def workers_of(text: str) -> int | str:
     """Return a number of workers, or the address of a Dask scheduler, of an option."""
     return int(text) if text.isdecimal() else text
-
-
-def write_part(
-    name: str,
-    page: str,
-    figures: Mapping[str, Figure],
-    found: Found | None = None,
-    tables: Mapping[str, str] | None = None,
-) -> None:
-    """Write a part's page, its figures and tables by their names, and its numbers."""
-    for file, figure in figures.items():
-        figure.savefig(FOLDER / "figures" / file, dpi=DPI, metadata={"Software": None})
-    for file, text in (tables or {}).items():
-        (FOLDER / "tables" / file).write_text(text, encoding="utf-8")
-    (FOLDER / f"{name}.md").write_text(page, encoding="utf-8")
-    if found is not None:
-        (FOLDER / f"{name}.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
-    print(f"written to {FOLDER}")
