@@ -27,7 +27,6 @@ MEASUREMENTS = (
     "study_near_fault",
     "study_loss",
     "study_uncertainty",
-    "study_rims",
     "study_device",
     "study_buildings",
     "study_motions",
