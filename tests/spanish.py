@@ -6,7 +6,7 @@ from html import unescape
 
 from frames.design.report.page import Words, catalogue
 
-UNITS = r"mm|MPa|GPa|kN/m|kN/mm|s/m|m/s2?²?|kg|kg/m[23²³]"
+UNITS = r"mm|m²|kN/m²|MPa|GPa|kN/m|kN/mm|s/m|m/s2?²?|kg|kg/m[23²³]"
 WORDLESS = "|".join(
     (
         r"\S*\d\S*",
@@ -43,7 +43,9 @@ def english_words(page: str, names: Iterable[str], language: str = "es") -> set[
     Names of the user, keys of the file, and the file as it was given are aside.
     """
     known = catalogue(language)
-    ours, theirs = (set(WORD.findall(" ".join(part).lower())) for part in (known, known.values()))
+    told = {one: said for one, said in known.items() if one != said}
+    ours, theirs = (set(WORD.findall(" ".join(part).lower())) for part in (told, told.values()))
+    names = [*names, *(one for one, said in known.items() if one == said)]  # titles that stay
     shown = unescape(ASIDE.sub(" ", page.partition('<h2 id="input">')[0]))
     for name in sorted(names, key=len, reverse=True):
         shown = shown.replace(name, " ")

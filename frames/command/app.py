@@ -227,7 +227,9 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
         say(f"values are: {'; '.join(words)}")
     if found.failures:
         out.print("[bold]Runs that failed[/]: their largest values are not valid for design")
-        _say_each(map(str, found.failures))
+        for cause in dict.fromkeys(one.cause for one in found.failures):
+            say(cause)
+            _say_each(f"  {one}" for one in found.failures if one.cause == cause)
     if len(moved := found.runs.moved):
         seconds = float(moved.parts[0].attrs["seconds"])  # of all of them: one batch
         say(f"demands are raised by {len(moved)} time histories with moved masses, {seconds:.3g} s")
@@ -317,16 +319,26 @@ def print_schema() -> None:
 
 
 def _checks(title: str, checks: Checks) -> None:
-    # A line each, those that fail in red, limits of a procedure that are exceeded in yellow.
+    # A line each, those that fail in red, limits of a procedure that are exceeded in yellow;
+    # those without a valid value in two lines: checks.csv has each.
     from frames.design.calculation.standing import LEGEND
 
     out.print(f"\n[bold]{title}[/]: {checks.tally}", soft_wrap=True)
     width = max((len(each.verdict) for each in checks), default=0)
     for each in checks:
+        if each.verdict == "no value":
+            continue
         style = {"ok": "green", "FAILS": "red", "no value": "red"}.get(each.verdict, "yellow")
         out.print(f"[{style}]{each.verdict:{width}}[/] ", end="")
         star = each.cited.removeprefix(each.clause)
         say(f"{each.brief} [{each.clause}]{star}")
+    void = checks.without_value
+    beyond = dict.fromkeys(each.title for each in void if each.compared > 1.0)
+    within = [title for title in dict.fromkeys(one.title for one in void) if title not in beyond]
+    for which, titles in (("beyond", [*beyond]), ("not beyond", within)):
+        if titles:
+            out.print(f"[red]no value[/], {which} the limit before the failure: ", end="")
+            say("; ".join(titles))
     if any(each.standing.starred for each in checks):
         say(LEGEND)
 

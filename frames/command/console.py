@@ -127,6 +127,7 @@ def project_in(file: Path) -> ProjectInputs:
 _WORDS = tuple(
     (re.compile(pattern), said)
     for pattern, said in (
+        (r"\. See the variables? [a-z ]+$", ""),
         (r"\bmath\.inf\b", "inf"),
         (r"\bSection\.rolled_i\b", "i_shape"),
         (r"\bSection\.elastic_modulus\b", "E"),

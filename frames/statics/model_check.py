@@ -115,7 +115,7 @@ class ModelCheck:
         rows = [
             ("mass", f"{1e-3 * self.mass:.5g} t"),
             ("permanent vertical load", f"{1e-3 * self.weight:.5g} kN"),
-            ("of it non-mass loads", f"{-1e-3 * self.loads[2] + 0.0:.5g} kN"),
+            ("of which non-mass loads", f"{-1e-3 * self.loads[2] + 0.0:.5g} kN"),
         ]
         if any(self.loads[:2]):
             across = " and ".join(f"{1e-3 * value:.5g}" for value in self.loads[:2])

@@ -70,7 +70,7 @@ def described(project):
     loads = project.file.get("loads")
     if loads is not None:
         last = f"floor-{given['storeys']}"
-        found["loaded area"] = f"base to {last} {math.prod(sides):.5g} m2"
+        found["loaded area"] = f"base to {last} {math.prod(sides):.5g} m²"
         found |= loaded(loads, project)
     return found
 

@@ -467,7 +467,7 @@ def _checks(project, head, rows, tally):
         sign = "" if plain_words else {"<=": "≤", ">=": "≥"}[given["relation"]]
         tally.words("tables of the report", label, row[5], sign)
         for text, value in zip((row[4], row[6]), numbers, strict=True):
-            _said(tally, label, text.removesuffix(" before failure"), value)
+            _said(tally, label, text.strip("()"), value)
         if nothing(given):
             tally.words("tables of the report", f"{label} limit", row[6], "none allowed")
         elif not void and math.isfinite(float(given["ratio"])):

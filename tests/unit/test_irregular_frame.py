@@ -108,7 +108,7 @@ def test_the_wing_has_a_roof_of_its_own(tmp_path: Path) -> None:
         {"D": 30.0 * (8 * 5e3 + 3 * 3e3), "L": 30.0 * 8 * 2e3, "S": 30.0 * 3 * 1.5e3}
     )
     rows = dict(structure_rows(parts.file, parts.frame()))
-    assert rows["loaded area"] == "base to floor-2 90 m2, floor-3 60 m2"
+    assert rows["loaded area"] == "base to floor-2 90 m², floor-3 60 m²"
     assert rows["members"] == "37 beams, 22 columns"
 
 

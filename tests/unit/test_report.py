@@ -423,7 +423,7 @@ def test_a_failing_design_names_each_cause_once(failing: Path) -> None:
     )
     assert len(cover.split()) < 350
     assert cover.count("artificial-1 ") == 1
-    assert f"{void.sum()} verificaciones no tienen un valor válido" in cover
+    assert f"{void.sum()} de {len(checks)} verificaciones no tienen un valor válido" in cover
     by_value = (checks["verdict"] == "FAILS") & (checks["symbol"] != "n_failed")
     said = f"No se cumplen por su valor {by_value.sum()} de {len(checks)}"
     assert said in " ".join(cover.split())
@@ -477,7 +477,7 @@ def check_of(demand: float, limit: float, **more: object) -> Check:
         (check_of(0.5, math.inf), ("0.5", "", "no limit", "")),
         (check_of(math.inf, 1.0), ("not evaluated", "", "1", "")),
         (check_of(math.inf, 1.0, void="a run failed"), ("not known", "", "1", "")),
-        (check_of(0.5, 1.0, void="a run failed"), ("0.5 before failure", "", "1", "")),
+        (check_of(0.5, 1.0, void="a run failed"), ("(0.5)", "", "1", "")),
     ],
 )
 def test_checks_in_words(check: Check, said: tuple[str, str, str, str]) -> None:

@@ -9,9 +9,8 @@ import numpy as np
 
 from frames.batch.runs import MASS_SHIFT
 from frames.design.histories.eccentricity import levels_of, reached_by
-from frames.design.histories.suite import names_of, run_named
+from frames.design.histories.suite import by_cause, named, names_of, run_named
 from frames.results.quantities import DEMANDS, JUDGED, Quantity
-from lir_element.errors import RunStatus
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.design.codes.history_rules import HistoryRules
     from frames.design.histories.eccentricity import Case
-    from frames.design.histories.suite import Failure, RunSet
+    from frames.design.histories.suite import RunSet
 
 COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
@@ -71,16 +70,12 @@ def _numbers(cases: Sequence[Case], name: str, sign: float) -> dict[str, Any]:
         largest = np.nanmax(reached_by(case.every, name), axis=1, initial=-math.inf)
         if largest.max() > worst:
             worst, one = float(largest.max()), int(largest.argmax())
-            named = run_named(case.every, one)
-            run = joined(named, case.bound, by=", ")
+            run = joined(run_named(case.every, one), case.bound, by=", ")
+    if not worst > 0.0 and sign > 0.0:  # it is nowhere, and in no run
+        where = run = ""
     found = {"envelope": envelope, "worst": worst}
     known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
-    return cells | {
-        "envelope": known["envelope"],
-        "where": where,
-        "worst": known["worst"],
-        "run": run,
-    }
+    return cells | {"where": where, "run": run} | known
 
 
 def largest_of_bounds(cases: Sequence[Case], name: str) -> FloatArray:
@@ -261,10 +256,6 @@ def _farthest(values: FloatArray) -> FloatArray:
     return np.where(np.isfinite(known), known, math.nan)
 
 
-_NAMED = 4
-"""Number of failed runs of one cause that are named; the table of all motions has the others."""
-
-
 class FailedRuns(NamedTuple):
     """The runs of a level and bound that failed for one cause."""
 
@@ -273,45 +264,25 @@ class FailedRuns(NamedTuple):
     failed: int  # number of runs that failed, and of all runs of this level and bound
     of: int
     cause: str  # the cause in words
-    motions: str  # motions with time and place of the failure
+    first: str  # the run that failed earliest: motion, with time and place of the failure
+    motions: str  # several of them
 
     def __str__(self) -> str:
-        """Return the runs and their cause on one line."""
+        """Return the runs on one line, without their cause."""
         where = joined(self.level, self.bound, by=", ")
         return worded(
-            "{where}: {failed} of {of} runs failed: {cause}: {motions}",
-            where=where,
-            **self._asdict(),
+            "{where}: {failed} of {of} runs failed: {motions}", where=where, **self._asdict()
         )
 
 
 def failed_runs(cases: Sequence[Case]) -> list[FailedRuns]:
-    """Return the runs that failed, by level, bound and cause."""
-    found = []
+    """Return the runs that failed, by cause, level and bound."""
+    found: dict[str, list[FailedRuns]] = {}
     for case in cases:
-        causes: dict[str, list[Failure]] = {}
-        for motion, one in zip(case.motions, case.failures, strict=True):
-            if one is not None:
-                causes.setdefault(_cause(one), []).append(one._replace(motion=motion))
-        found += [
-            FailedRuns(case.level, case.bound, len(ones), len(case.failures), cause, _named(ones))
-            for cause, ones in causes.items()
-        ]
-    return found
-
-
-def _cause(one: Failure) -> str:
-    if one.status == "ok":
-        return "a bearing lifted off"
-    return RunStatus[one.status.upper()].meaning.partition(":")[0]
-
-
-def _named(ones: list[Failure]) -> str:
-    named = []
-    for one in ones[:_NAMED]:
-        at = f"{one.at:.2f} s" if math.isfinite(one.at) else ""
-        there = joined(at, one.where.removeprefix("bearing ").strip('"'), by=", ")
-        known = worded("{motion} ({there})", motion=one.motion, there=there)
-        named.append(known if there else one.motion)
-    more = len(ones) - len(named)
-    return joined(*named, worded("{n} more", n=more) if more else "")
+        of = len(case.failures)
+        known = zip(case.motions, case.failures, strict=True)
+        own = by_cause(one and one._replace(motion=motion) for motion, one in known)
+        for cause, ones in own.items():
+            those = len(ones), of, cause, str(ones[0]), named(ones)
+            found.setdefault(cause, []).append(FailedRuns(case.level, case.bound, *those))
+    return [one for those in found.values() for one in those]

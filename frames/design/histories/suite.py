@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -13,6 +13,7 @@ from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
 from frames.results.peak_response import places_of, reached
 from frames.results.recorded import PEAK
+from lir_element.errors import RunStatus
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -199,13 +200,39 @@ class Failure(NamedTuple):
     at: float  # time of the failure [s]; NaN if it is not known
     where: str  # the bearing or degree of freedom
 
+    @property
+    def cause(self) -> str:
+        """Why it failed, in words."""
+        if self.status == "ok":
+            return "a bearing lifted off"
+        return RunStatus[self.status.upper()].meaning.partition(":")[0]
+
     def __str__(self) -> str:
-        """Return motion, cause, time and place."""
-        cause = self.status if self.status != "ok" else "a bearing lifted off"
-        if math.isfinite(self.at):
-            cause = worded("{cause} at {time:.4g} s", cause=cause, time=self.at)
-        cause = worded("{motion}: {cause}", motion=self.motion, cause=cause)
-        return joined(cause, self.where, by=", ")
+        """Return motion, time and place."""
+        at = worded("{time:.2f} s", time=self.at) if math.isfinite(self.at) else ""
+        there = joined(at, self.where, by=", ")
+        known = worded("{motion} ({there})", motion=self.motion, there=there)
+        return known if there else self.motion
+
+
+def by_cause(failures: Iterable[Failure | None]) -> dict[str, list[Failure]]:
+    """Return runs that failed by their cause, those that failed earliest first."""
+    found: dict[str, list[Failure]] = {}
+    known = (one for one in failures if one is not None)
+    for one in sorted(known, key=lambda one: (math.isnan(one.at), one.at)):
+        found.setdefault(one.cause, []).append(one)
+    return found
+
+
+_NAMED = 4
+"""Number of failed runs of one cause that are named; the table of all motions has the others."""
+
+
+def named(failures: Sequence[Failure]) -> str:
+    """Return the first of several runs that failed, and the number of the others."""
+    more = len(failures) - _NAMED
+    others = worded("{n} more", n=more) if more > 0 else ""
+    return joined(*map(str, failures[:_NAMED]), others)
 
 
 def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
@@ -245,10 +272,9 @@ def stopped_in(data: xr.Dataset) -> BoolArray:
 
 
 def run_named(data: xr.Dataset, k: int) -> str:
-    """Return the motion of a run, with how it failed: "one (slip_exceeded)"."""
-    name, status = motion_of(data, k), data["status"].to_numpy()[k]
-    is_stopped = stopped_in(data)[k]
-    return worded("{motion} ({status})", motion=name, status=status) if is_stopped else name
+    """Return the motion of a run, and whether it failed: "one (failed)"."""
+    name = motion_of(data, k)
+    return worded("{motion} (failed)", motion=name) if stopped_in(data)[k] else name
 
 
 def stopped_runs(data: xr.Dataset) -> str:
@@ -258,16 +284,21 @@ def stopped_runs(data: xr.Dataset) -> str:
 
 
 def _said_of(failures: Sequence[Failure | None]) -> str:
-    # Number of failed runs, and each of them.
-    stopped = [str(one) for one in failures if one is not None]
-    count = worded("{count} of {n} runs failed", count=len(stopped), n=len(failures))
-    return joined(count, *stopped) if stopped else ""
+    # How many of runs failed, and each cause with its runs.
+    causes = by_cause(failures)
+    failed = sum(map(len, causes.values()))
+    count = worded("{count} of {n} runs failed", count=failed, n=len(failures))
+    each = (worded("{cause}: {runs}", cause=c, runs=named(ones)) for c, ones in causes.items())
+    return joined(count, *each) if causes else ""
 
 
 def _failure(data: xr.Dataset, k: int) -> Failure:
     at, where = float(data["failed_at"][k]), str(data["failed_where"].to_numpy()[k])
     kind, _, name = where.partition(' "')
-    where = worded('{kind} "{name}"', kind=kind, name=name[:-1]) if name else where
+    if kind == "bearing":
+        where = name[:-1]
+    elif name:
+        where = worded('{kind} "{name}"', kind=kind, name=name[:-1])
     return Failure(motion_of(data, k), str(data["status"].to_numpy()[k]), at, where)
 
 

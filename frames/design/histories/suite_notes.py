@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.design.calculation.check import Bound, Check
+    from frames.results.findings import Finding
     from lir_element import LIRBearing
 
 
@@ -76,15 +77,31 @@ def contact_notes(data: xr.Dataset, least: float) -> str:
 
 
 def audit_notes(data: xr.Dataset) -> str:
-    """Return the findings of the runs' assumption checks, by motion."""
-    marked = (joined(*found.doubts()) for found in findings_by_run(data))
-    return joined(
-        *(
-            worded("assumption check of {motion}: {doubt}", motion=motion_of(data, k), doubt=doubt)
-            for k, doubt in enumerate(marked)
-            if doubt
+    """Return what the assumption checks of runs mark, each feature once, of its first run."""
+    said = []
+    for runs in marked_features([data]).values():
+        first, found = runs[0]
+        said.append(
+            worded(
+                "assumption checks of {n} of {all} runs, first {motion}: {doubt}",
+                n=len(runs),
+                all=data.sizes["run"],
+                motion=motion_of(data, first),
+                doubt=found.sentence,
+            )
         )
-    )
+    return joined(*said)
+
+
+def marked_features(parts: Iterable[xr.Dataset]) -> dict[str, list[tuple[int, Finding]]]:
+    """Return the findings that the assumption checks mark, with their run, by feature."""
+    marked: dict[str, list[tuple[int, Finding]]] = {}
+    for data in parts:
+        for k, found in enumerate(findings_by_run(data)):
+            for one in found:
+                if one.is_marked:
+                    marked.setdefault(one.feature, []).append((k, one))
+    return marked
 
 
 def left_out_checks(data: xr.Dataset, bound: Bound, void: str = "") -> list[Check]:

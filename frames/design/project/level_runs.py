@@ -113,13 +113,11 @@ def most_displaced(runs: Runs) -> Runs:
     return own.those(np.arange(len(own)) == reached.argmax())
 
 
-def named_case(one: Runs) -> str:
-    """Return a run in words: motion, bound and level, and the status of one that failed."""
-    tags = ("motion", "status", BOUND, HAZARD)
-    motion, status, bound, level = (str(one.of(tag)[0]) for tag in tags)
+def named_case(one: Runs, *, failed: bool = True) -> str:
+    """Return a run in words: motion, bound and level; if `failed`, also whether it failed."""
+    motion, bound, level = (str(one.of(tag)[0]) for tag in ("motion", BOUND, HAZARD))
     named = worded("{run}, {bound} bound, {level} level", run=motion, bound=bound, level=level)
-    ended = worded("failed ({status})", status=status) if stopped_in(one.data)[0] else ""
-    return joined(named, ended, by=", ")
+    return joined(named, "failed" if failed and stopped_in(one.data)[0] else "", by=", ")
 
 
 def _apart(data: xr.Dataset, other: xr.Dataset, quantity: str) -> float:

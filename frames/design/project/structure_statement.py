@@ -77,7 +77,7 @@ def structure_rows(file: ProjectFile, frame: Frame, spectrum: Spectrum | None = 
             )
         )
     if isinstance(given, BuildingTable) and given.floor_load is not None:
-        rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m2"))
+        rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m²"))
     if file.loads is not None:
         rows += _loads(file, file.loads, spectrum)
     rows += device_rows(file.moat, file.dampers)
@@ -136,7 +136,7 @@ def _areas(frame: Frame) -> Rows:
     for area, group in groupby(found, key=lambda level: f"{found[level]:.5g}"):
         names = list(group)
         where = names[0] if len(names) == 1 else _span(names[0], names[-1])
-        said.append(worded("{where} {area} m2", where=where, area=area))
+        said.append(worded("{where} {area} m²", where=where, area=area))
     return [("loaded area", joined(*said, by=", "))]
 
 
@@ -152,7 +152,7 @@ def _loads(file: ProjectFile, given: LoadsTable, spectrum: Spectrum | None) -> R
             if q > 0.0
         ]
         title = worded("loads of {what}, besides the members", what=what)
-        rows.append((title, worded("{loads} kN/m2", loads=joined(*parts, by=", "))))
+        rows.append((title, worded("{loads} kN/m²", loads=joined(*parts, by=", "))))
     if given.facade > 0.0:
         rows.append(("facade, along the outer edges", f"{1e-3 * given.facade:.4g} kN/m"))
     found = loads_of(given, rule)

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from markupsafe import Markup
 
 from frames.design.calculation.not_evaluated import NOT_EVALUATED
+from frames.design.calculation.rendering import quantity
 from frames.design.codes.registry import code_named
+from frames.design.histories.suite_notes import marked_features
 from frames.design.report.tables import Table
 from lir_element._version import package_version
 from lir_element.texts import joined, worded
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from frames.design.calculation.check import Check
     from frames.design.calculation.trace import Trace
     from frames.design.codes.bounds import PropertyBounds
+    from frames.design.histories.demand_table import FailedRuns
     from frames.design.project.design_run import ProjectRun
 
 
@@ -55,6 +58,8 @@ class Judged(NamedTuple):
 def judged(check: Check) -> Judged:
     """Return a check as the report shows it."""
     demand, limit, ratio = check.said
+    if check.void and math.isfinite(check.demand):
+        demand = worded("({value})", value=quantity(check.demand, check.unit, check.shown))
     sign = "" if check.void else "≤" if check.relation == "<=" else "≥"
     if check.limit in _ZERO and check.relation == "<=":  # nothing may be there: no ratio
         limit, sign, ratio = "none allowed", "", ""
@@ -217,10 +222,10 @@ class Verdict(NamedTuple):
     # titles of these: beyond the limit before the failure already, and not beyond it
     beyond: list[str]
     within: list[str]
-    failures: Table  # runs that failed, by level, bound and cause
-    failed: int  # number of runs that failed, that the assumption checks mark, and of all runs
-    doubtful: int
+    failures: Table  # runs that failed: each cause once
+    failed: int  # number of runs that failed, and of all runs
     runs: int
+    warnings: list[tuple[str, int]]  # what the assumption checks mark, and in how many runs
 
 
 def verdict_of(run: ProjectRun) -> Verdict:
@@ -234,15 +239,24 @@ def verdict_of(run: ProjectRun) -> Verdict:
         without_value=len(void),
         beyond=beyond,
         within=[title for title in _titles(void) if title not in beyond],
-        failures=Table(
-            ("level", "bound", "failed", "cause", "motions"),
-            [(f.level, f.bound, f"{f.failed} / {f.of}", f.cause, f.motions) for f in run.failures],
-            frozenset({0, 1, 3, 4}),
-        ),
+        failures=_failures(run.failures),
         failed=sum(one.failed for one in run.failures),
-        doubtful=int((run.runs.of("doubts") != "").sum()),
         runs=len(run.runs),
+        warnings=[
+            (feature.replace("_", " "), len(those))
+            for feature, those in marked_features(run.runs.parts).items()
+        ],
     )
+
+
+def _failures(failures: Iterable[FailedRuns]) -> Table:
+    # A cause that is that of the row before is left out.
+    rows, before = [], ""
+    for one in failures:
+        cause = "" if one.cause == before else one.cause
+        rows.append((cause, one.level, one.bound, f"{one.failed} / {one.of}", one.motions))
+        before = one.cause
+    return Table(("cause", "level", "bound", "failed", "motions"), rows, frozenset({0, 1, 2, 4}))
 
 
 def _titles(checks: Iterable[Check]) -> list[str]:

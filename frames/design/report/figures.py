@@ -12,12 +12,11 @@ from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
-from frames.batch.runs import BOUND
 from frames.design.hazard.plot_hazard import motion_spectra
 from frames.design.histories.demand_table import worst_place
 from frames.design.histories.eccentricity import Case, levels_of, reached_by
 from frames.design.histories.suite import names_of, peaks_of_runs
-from frames.design.project.level_runs import most_displaced
+from frames.design.project.level_runs import most_displaced, named_case
 from frames.design.report.page import Picture, picture
 from frames.design.report.tender import types_of
 from frames.design.report.tender_plan import tender_plan
@@ -144,7 +143,7 @@ def motions_figure(run: ProjectRun) -> Figure:
     return figure
 
 
-VOID_TITLE = "All motions; runs failed: lines are what runs reached, no values for design"
+VOID_TITLE = "All motions; runs failed: lines show their largest values, not valid for design"
 """Title of a figure whose lines are no values for design."""
 
 
@@ -163,6 +162,7 @@ def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
                 panel.plot(places[which], values, mark, color=ps.PALETTE[k], markersize=4.0)
         if math.isfinite(each.design):
             panel.axhline(factor * each.design, color=ps.PALETTE[k], linewidth=1.0)
+    panel.margins(y=0.1)
     panel.set_ylim(bottom=0.0)
 
 
@@ -298,44 +298,27 @@ def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
 
 
 def _of_one_run(run: ProjectRun) -> list[Plan]:
-    where, bound = run.governing_case, str(most_displaced(run.runs).of(BOUND)[0])
-    name = worded("{name}, {bound} bound", name=run.frame.name, bound=bound)
-    title = worded("time history of {name}", name=name if bound else run.frame.name)
-    data = run.governing.assign_attrs(title=title)  # as a file has it, it is English
+    # as a file has it, the title is English
+    data = run.governing.assign_attrs(title=named_case(most_displaced(run.runs), failed=False))
     bearing, typical = worst_bearing(data), typical_bearing(data)
     is_met = bool((data["rim_force"].sel(bearing=bearing) > 0.0).any())
     event = "the impact" if is_met else "its largest displacement"
     plans: list[Plan] = [
         (
-            worded(
-                "The bearing before, during and after {event}, {bearing}; {where}",
-                event=event,
-                bearing=bearing,
-                where=where,
-            ),
+            worded("The bearing before, during and after {event}", event=event),
             lambda: bearing_sections(data, bearing=bearing),
         ),
-        (
-            worded("Force over displacement, {bearing}; {where}", bearing=bearing, where=where),
-            lambda: hysteresis(data, bearing),
-        ),
+        ("Force over displacement of this bearing", lambda: hysteresis(data, bearing)),
     ]
     if typical != bearing:
-        title = worded(
-            "Force over displacement of a typical bearing, {bearing}; {where}",
-            bearing=typical,
-            where=where,
-        )
+        title = "Force over displacement of the bearing with the median displacement"
         plans.append((title, lambda: hysteresis(data, typical)))
     return [
         *plans,
-        (worded("Energy; {where}", where=where), lambda: energy(data)),
-        (
-            worded("Orbits, {bearing}; {where}", bearing=bearing, where=where),
-            lambda: orbits(data, bearing),
-        ),
-        (worded("Storeys; {where}", where=where), lambda: storey_profiles(data)),
-        (worded("Bearings in plan; {where}", where=where), lambda: bearing_plan(data)),
+        ("Energy", lambda: energy(data)),
+        ("Path of the bearing", lambda: orbits(data, bearing)),
+        ("Storey drifts and floor accelerations", lambda: storey_profiles(data)),
+        ("Bearings in plan", lambda: bearing_plan(data)),
     ]
 
 

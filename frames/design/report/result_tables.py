@@ -296,7 +296,7 @@ def model_table(model: ModelCheck) -> Table:
     rows = [
         ("mass", f"{1e-3 * model.mass:.5g}", "t"),
         ("permanent vertical load", f"{1e-3 * model.weight:.5g}", "kN"),
-        ("of it non-mass loads", f"{-1e-3 * model.loads[2] + 0.0:.5g}", "kN"),
+        ("of which non-mass loads", f"{-1e-3 * model.loads[2] + 0.0:.5g}", "kN"),
     ]
     if any(across):
         rows += [
@@ -331,7 +331,7 @@ def loads_table(model: ModelCheck) -> Table:
         "pressure [MPa]",
         "settlement [mm]",
         "pendulum period [s]",
-        "stable limit of interface slip, of the overlap",
+        "stable limit of interface slip / overlap",
     )
     return Table(head, rows, frozenset({5}))
 

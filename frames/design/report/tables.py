@@ -20,6 +20,7 @@ SHOWN = {
     "N m": ("kN m", 1e-3),
     "N/m": ("kN/m", 1e-3),
     "J": ("kJ", 1e-3),
+    "m/s2": ("m/s²", 1.0),
 }
 """Units that tables show others in, with the factor."""
 

@@ -292,11 +292,9 @@ def texts(run: ProjectRun) -> dict[str, str]:
         "height": max(one.make.height for one in kinds),
         "free": CLEARANCE,
     }
-    void = joined(*dict.fromkeys(each.asked.void for each in run.types.values() if each.asked.void))
     return {name: f"{1e3 * length:.0f}" for name, length in lengths.items()} | {
         "moat": "" if gap is None else f"{1e3 * gap:.0f}",
         "mass": f"{max(one.make.mass for one in kinds):.0f}",
-        "void": worded("no values for design: {why}", why=void) if void else "",
         # dimensions that are proportioned here
         "proposals": joined(*dict.fromkeys(w for one in kinds for w in one.make.proposed), by=", "),
         "stress": f"{1e-6 * YIELD_STRESS:.0f}",

@@ -100,7 +100,6 @@ def report_in(
         css_string=css_string,
         sections=SECTIONS,
         failed=len(run.checks.failed),
-        verdict=verdict_of(run),
         least=[judged(check) for check in run.checks.raised],
         governing=what_governs(run.checks),
         judged=judged,
@@ -131,14 +130,16 @@ def _tables(words: Words, run: ProjectRun, tables: Mapping[str, pd.DataFrame]) -
 
     def of(name: str, head: str, keep: int = 1, only: str = ".") -> list[Table]:
         shown = tables.get(name, pd.DataFrame()).filter(regex=only)
-        return fit(page_table(in_mm_and_kn(shown), head), keep)
+        return fit(page_table(in_mm_and_kn(_marked(shown)), head), keep)
 
+    verdict = verdict_of(run)
     raised = raised_tables(tables.get(ECCENTRICITY, pd.DataFrame()))
     structure = Table(("of the structure", "as described"), run.structure, frozenset({0, 1}))
     accepted = _accepted(code_named(run.equivalent.code), tables["programme"])
     tables = {**tables, "programme": _programme(tables["programme"])}
     return {
-        "failures": fit(verdict_of(run).failures),
+        "failures": words.table(verdict.failures),
+        "verdict": verdict,
         "provisions": words.table(_provisions(run)),
         "structure": words.table(structure),
         "model": words.table(model_table(run.model)),
@@ -209,7 +210,7 @@ _FACTS = {"azimuth_x": "azimuth of x [°]", "azimuth_y": "azimuth of y [°]", "s
 
 def _named(fact: str) -> str:
     # The head of a column of a table of motions, whose keys are names.
-    return _FACTS.get(fact, fact.replace("_", " "))
+    return _FACTS.get(fact, fact.replace("_", " ").replace("m/s2", "m/s²"))
 
 
 def _provisions(run: ProjectRun) -> Table:
@@ -229,8 +230,20 @@ def _links(links: pd.DataFrame) -> Table:
     # Each link at its largest force of all bounds.
     if links.empty:
         return page_table(links, "link")
-    shown = largest_of_links(links).set_index("link").drop(columns="void")
-    return page_table(in_mm_and_kn(_unless_alike(shown, "level")), "link")
+    shown = _marked(largest_of_links(links).set_index("link"))
+    for column in ("level", "statistic"):
+        shown = _unless_alike(shown, column)
+    return page_table(in_mm_and_kn(shown), "link")
+
+
+def _marked(table: pd.DataFrame) -> pd.DataFrame:
+    # Rows without a valid value are marked, if there are others; a sentence has the reason.
+    if "void" not in table:
+        return table
+    is_void = table["void"].fillna("") != ""
+    if is_void.all() or not is_void.any():
+        return table.drop(columns="void")
+    return table.assign(void=is_void.map({True: "not valid", False: ""}))
 
 
 def _unless_alike(table: pd.DataFrame, column: str) -> pd.DataFrame:
