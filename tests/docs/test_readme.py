@@ -130,11 +130,10 @@ def when_it_helps() -> str:
     better, worse = cells[pulses.LIR_BETTER], cells[pulses.PLAIN_BETTER]
     return f"""{table(["limit", *ends], lines)}
 
-Near-fault pulses: both devices of equal plan stand in {pulses.both(cells)} of {sum(cells.values())}
-cells of a map. The LIR-DCFP is better in {better} of them, the DCFP in {worse}. The DCFP alone
-stands in {cells[pulses.PLAIN_ONLY]}, the LIR-DCFP alone in {cells[pulses.LIR_ONLY]}. At level
-`pendulum`, without bodies, collapse at equal plan is {simple}.
-The LIR-DCFP costs {price:.2f} times as much as the DCFP of its plan, by assumed prices."""
+Near-fault pulses at equal plan: both devices stand in {pulses.both(cells)} of
+{sum(cells.values())} cells, the LIR-DCFP is better in {better}, the DCFP in {worse}; the DCFP alone
+stands in {cells[pulses.PLAIN_ONLY]}. At level `pendulum` collapse at equal plan is {simple}.
+The LIR-DCFP costs {price:.2f} times as much, by assumed prices."""
 
 
 def test_the_readme_says_when_it_helps_by_the_numbers_of_the_study() -> None:

@@ -42,7 +42,6 @@ DECIDED = ("better", "worse")
 DCFP = f"DCFP {REFERENCE}, {RIMS[0]}"
 
 OTHERS = ("records", "buildings", "after", "motions", "uncertainty", "loss")
-"""Parts that have a line."""
 
 RECORD, SCALE, STEP, BEARING = "Kocaeli, Turkey 1999, Duzce", 2.2, 0.002, "bearing-2-2"
 """Of the histories: the record, its Sa [m/s2], the step [s], a corner."""
@@ -165,14 +164,14 @@ def decision_figure(parts: Parts) -> Figure:
         pulses.draw_cells(panel, near, pair, pulses.verdicts(near, pair), f"pulses, equal {pair}")
         ps.caption(panel, x="T_p / T_b [-]", y="peak velocity [m/s]")
     device.legend(figure)
-    look = {"loc": "outside lower center", "ncols": 3, "fontsize": ps.SMALL, "frameon": False}
-    figure.legend(handles=pulses.legend_handles(), **look)
+    look: dict[str, Any] = {"ncols": 3, "fontsize": ps.SMALL, "frameon": False}
+    figure.legend(handles=pulses.legend_handles(), loc="outside lower center", **look)
     return figure
 
 
 def history_figures(kept: Own) -> dict[str, Figure]:
     """Return force over displacement of the bearing, and its axial force at two impacts."""
-    figures = {name: ps.new_figure(2.4) for name in ("loops", "axial")}
+    figures: dict[str, Figure] = {name: ps.new_figure(2.4) for name in ("loops", "axial")}
     (loops,), (axial,) = (ps.grid_of(each, 1, 2, share_y=True) for each in figures.values())
     for k, (name, run) in enumerate(kept.items()):
         loops[k].plot(1e3 * np.array(run["displacement"]), run["force"], "k", linewidth=0.8)
