@@ -118,9 +118,7 @@ class TestAT2:
         path = write("rec.AT2", at2_text(tuple(80.0 * v for v in VALUES), unit="UNITS OF M/S2"))
         assert GroundMotion.from_at2(path).peak["x"] == pytest.approx(40.0)
         strong = write("gal.AT2", at2_text(tuple(784.0 * v for v in VALUES), unit="UNITS OF M/S2"))
-        with pytest.warns(
-            MotionWarning, match=r"392 m/s2 = 40 g, above .*cm/s2 are 3.92"
-        ):
+        with pytest.warns(MotionWarning, match=r"392 m/s2 = 40 g, above .*cm/s2 are 3.92"):
             GroundMotion.from_at2(strong)
 
     @pytest.mark.parametrize(

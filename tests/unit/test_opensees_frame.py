@@ -87,9 +87,7 @@ def test_loads_come_as_they_stand(ops):
 
 def test_weights_and_loads_are_not_mixed_up(ops):
     portal(ops, loaded=False)
-    with pytest.raises(
-        ModelError, match=r"vertical load of 0 N, but its masses weigh 2.942e\+05"
-    ):
+    with pytest.raises(ModelError, match=r"vertical load of 0 N, but its masses weigh 2.942e\+05"):
         Frame.from_opensees([1, 2], BEARING)
     portal(ops)
     with pytest.raises(ModelError, match=r"gravity = 9.81 m/s2, but .* already carries 2e\+05 N"):
@@ -365,9 +363,7 @@ def without_vertical_mass(ops, *, loaded):
 
 def test_vertical_mass_can_be_given(ops):
     without_vertical_mass(ops, loaded=True)
-    with pytest.raises(
-        ModelError, match=r'3e\+04 kg along x, but no vertical mass .*"hor'
-    ):
+    with pytest.raises(ModelError, match=r'3e\+04 kg along x, but no vertical mass .*"hor'):
         Frame.from_opensees([1, 2], BEARING)
     frame = Frame.from_opensees([1, 2], BEARING, vertical_mass="horizontal")
     own = gravity(frame).system.node_mass[:, 2]

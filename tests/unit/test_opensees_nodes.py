@@ -35,9 +35,7 @@ def test_swapped_nodes_are_told_and_the_remedy_helps(ops):
 
 def test_swapped_nodes_that_coincide_are_told_by_the_supports(ops):
     nodes(ops, 0.0)
-    with pytest.warns(
-        PlacementWarning, match="if the support is below, swap them, i=1 and j=2"
-    ):
+    with pytest.warns(PlacementWarning, match="if the support is below, swap them, i=1 and j=2"):
         place(ops, 2, 1, BEARING, None, 1.0, 1.0)
     place(ops, 1, 2, BEARING, None, 1.0, 1.0)
     ops.fix(2, 1, 1, 1, 1, 1, 1)  # nothing to be told of two supports

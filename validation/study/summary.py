@@ -98,7 +98,8 @@ def pairs(own: Own, limit: str, terms: str = "plan", end: str = "", level: int =
 def span(rows: Sequence[Own]) -> str:
     """Return the range of ratios of medians."""
     found = [row["ratio"][0] for row in rows if row["ratio"]]
-    return f"{min(found):.2f} to {max(found):.2f}" if found else "not known"
+    ends = dict.fromkeys(f"{end:.2f}" for end in (min(found), max(found))) if found else ()
+    return " to ".join(ends) or "not known"
 
 
 def verdicts(rows: Sequence[Own]) -> str:
