@@ -45,7 +45,7 @@ def english_words(page: str, names: Iterable[str], language: str = "es") -> set[
     known = catalogue(language)
     told = {one: said for one, said in known.items() if one != said}
     ours, theirs = (set(WORD.findall(" ".join(part).lower())) for part in (told, told.values()))
-    names = [*names, *(one for one, said in known.items() if one == said)]  # titles that stay
+    names = [*names, *(one for one, said in known.items() if one == said and " " in one)]  # titles
     shown = unescape(ASIDE.sub(" ", page.partition('<h2 id="input">')[0]))
     for name in sorted(names, key=len, reverse=True):
         shown = shown.replace(name, " ")
