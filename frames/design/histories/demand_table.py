@@ -73,9 +73,8 @@ def _numbers(cases: Sequence[Case], name: str, sign: float) -> dict[str, Any]:
             run = joined(run_named(case.every, one), case.bound, by=", ")
     if not worst > 0.0 and sign > 0.0:  # it is nowhere, and in no run
         where = run = ""
-    found = {"envelope": envelope, "worst": worst}
-    known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
-    return cells | {"where": where, "run": run} | known
+    design, most = (sign * v + 0.0 if math.isfinite(v) else math.nan for v in (envelope, worst))
+    return cells | {"envelope": design, "where": where, "worst": most, "run": run}
 
 
 def largest_of_bounds(cases: Sequence[Case], name: str) -> FloatArray:
