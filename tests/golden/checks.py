@@ -512,6 +512,6 @@ def _facts(project, failed, tally, name):
     motion = project.runs[largest[1]][largest[2]]["motion"][largest[3]]
     level = largest[1] or ("MCE_R" if project.code == "ASCE 7-22" else "design")
     status = project.runs[largest[1]][largest[2]]["status"][largest[3]]
-    ended = "" if status == "ok" else f", failed ({status})"
+    ended = "" if status == "ok" else ", failed"
     case = f"{motion}, {largest[2]} bound, {level} level{ended}"
     tally.words(name, "governing case", facts["governing_case"], case)

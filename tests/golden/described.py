@@ -65,7 +65,7 @@ def described(project):
         damping = 100.0 * given.get("damping", 0.02)
         found["damping above the bearings"] = f"{damping:g} % in each mode"
         if "floor_load" in given:
-            mass = f"{given['floor_load']:.4g} kg/m2"
+            mass = f"{given['floor_load']:.4g} kg/m²"
             found["mass of a floor besides its members"] = mass
     loads = project.file.get("loads")
     if loads is not None:
@@ -127,7 +127,7 @@ def loaded(loads, project):
         own = {"dead": dead, "live": live, "snow": snow if what == "roof" else 0.0}
         own |= loads.get(what, {})
         parts = [f"{key} {1e-3 * q:.4g}" for key, q in own.items() if q > 0.0]
-        found[f"loads of {what}, besides the members"] = ", ".join(parts) + " kN/m2"
+        found[f"loads of {what}, besides the members"] = ", ".join(parts) + " kN/m²"
     if loads.get("facade", 0.0) > 0.0:
         found["facade, along the outer edges"] = f"{1e-3 * loads['facade']:.4g} kN/m"
     mass = loads.get("mass", {"live": LIVE_MASS[code]})

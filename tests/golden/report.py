@@ -79,7 +79,7 @@ def _kind(heading, head):
         ("Equivalent-linear analysis", "bound"): _linear,
         ("Equivalent-linear analysis", "check"): _limits,
         ("Time histories", "quantity"): _demands,
-        ("Time histories", "level"): _failed_runs,
+        ("Time histories", "cause"): _failed_runs,
         ("Time histories", "largest"): _raised,
         ("Time histories", "motion"): _by_motion,
         ("Time histories", "members"): _members,
@@ -210,6 +210,8 @@ def _from_csv(project, name, head, rows, tally, names=None):
                 tally.words("tables of the report", label, text, UNIT.get(value, value))
             elif plain == "clause":
                 tally.words("tables of the report", label, text.removesuffix(" *"), value)
+            elif plain == "void":  # the reason is in a sentence
+                tally.words("tables of the report", label, text, "not valid" if value else "")
             elif plain not in {"bearing", "friction coefficient", "test"}:
                 tally.words(
                     "tables of the report",
@@ -219,7 +221,7 @@ def _from_csv(project, name, head, rows, tally, names=None):
                 )
 
 
-UNIT = {"m": "mm", "N": "kN", "N m": "kN m", "N/m": "kN/m", "J": "kJ"}
+UNIT = {"m": "mm", "N": "kN", "N m": "kN m", "N/m": "kN/m", "J": "kJ", "m/s2": "m/s²"}
 
 
 def _factor_of_row(given, title, factor):
@@ -305,8 +307,8 @@ def _demands(project, head, rows, tally):
 def _failed_runs(project, head, rows, tally):
     # Rows of a level and bound, by cause: their counts are those of the table of all motions.
     own = project.table("demands-by-motion")
-    for level, bound in sorted({(row[0], row[1]) for row in rows}):
-        cells = [row[2] for row in rows if (row[0], row[1]) == (level, bound)]
+    for level, bound in sorted({(row[1], row[2]) for row in rows}):
+        cells = [row[3] for row in rows if (row[1], row[2]) == (level, bound)]
         runs = [row for row in own if (row["level"], row["bound"]) == (level, bound)]
         failed = sum(row["failed"] == "yes" for row in runs)
         label = f"failed runs {level} {bound}"
