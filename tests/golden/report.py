@@ -341,6 +341,8 @@ def _members(project, head, rows, tally):
         tally.words("tables of the report", "members", row[0], given["group"])
         for title, text in zip(head[1:], row[1:], strict=True):
             source = given.get(title)
+            if title == "void":  # the reason is in a sentence
+                source = "not valid" if source else ""
             if title in {"smallest", "largest"}:
                 shown(tally, f"members {row[0]} {title}", text, source, factor)
             elif title == "unit":
