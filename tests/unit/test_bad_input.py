@@ -245,7 +245,7 @@ def test_gal_is_a_unit_of_files(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("lazy", [False, True])
 def test_results_that_are_not_there(lazy: bool, tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match=r"nope\.nc is not a file: give one that save"):
+    with pytest.raises(FileNotFoundError, match=r"nope\.nc is not a file: use one that save"):
         load(tmp_path / "nope.nc", lazy=lazy)
 
 

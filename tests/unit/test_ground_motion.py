@@ -216,16 +216,16 @@ class TestColumns:
         ("text", "options", "message"),
         [
             (BBP, {"unit": "ft/s2"}, r"unit = 'ft/s2' must be one of g, m/s2, cm/s2, gal"),
-            (BBP, {"time": None}, r"time = None and dt = None: give one of them"),
-            (BBP, {"dt": 0.1}, r"give one of them"),
+            (BBP, {"time": None}, r"time = None and dt = None: set one of them"),
+            (BBP, {"dt": 0.1}, r"set one of them"),
             (BBP, {"x": 4}, r"column = 4 must be.*below 4"),
             (BBP, {"time": -1}, r"time = -1 must be at least 0"),
-            (BBP.replace("1.000000e-02", "1.5e-02"), {}, "evenly"),
-            (BBP.replace("5.000000e-03", "nan"), {}, "evenly"),
+            (BBP.replace("1.000000e-02", "1.5e-02"), {}, "time step is not constant"),
+            (BBP.replace("5.000000e-03", "nan"), {}, "time step is not constant"),
             ("a b\n1 2\n", {}, r"line 1: 'a' is text.*skip=1"),
             ("# only this\n", {}, "holds no values after 0 skipped"),
             ("1 2\n", {"decimal": ";"}, "decimal = ';'.*choose one"),
-            ("0.0,one\n0.1,two\n", {}, r"line 1: '0.0,one' is not a number: remove"),
+            ("0.0,one\n0.1,two\n", {}, r"line 1: '0.0,one' is not a number: repair"),
         ],
     )
     def test_refusals(self, write, text, options, message):
@@ -324,7 +324,7 @@ class TestChecks:
             ({"y": [[1.0, 2.0]], "dt": 0.1}, r"y has shape \(1, 2\)"),
             ({"z": [1.0, math.nan, 2.0], "dt": 0.1}, r"z\[1\] = nan must be finite"),
             ({"x": "record.AT2", "dt": 0.1}, r"x must be a 1-D array.*use from_at2"),
-            ({"x": np.array([1.0, 2.0j]), "dt": 0.1}, r"x holds complex numbers.*values.real"),
+            ({"x": np.array([1.0, 2.0j]), "dt": 0.1}, r"x has complex numbers.*values.real"),
             (
                 {"y": np.ma.masked_equal([1.0, 9.0, 2.0], 9.0), "dt": 0.1},
                 r"y has 1 masked values.*values.filled",
@@ -481,9 +481,9 @@ class TestSpectrum:
         [
             ({"periods": [1.0, -0.5]}, r"periods hold -0.5"),
             ({"periods": [[1.0]]}, r"periods have shape \(1, 1\)"),
-            ({"periods": [1.0j]}, "periods holds complex numbers"),
+            ({"periods": [1.0j]}, "periods has complex numbers"),
             ({"periods": [1.0], "damping": 5.0}, r"damping = 5 must be.*5 % is 0.05"),
-            ({"periods": [1.0], "component": "z"}, r"component = 'z' must be one of x, y"),
+            ({"periods": [1.0], "component": "z"}, r"component = 'z': choose one of x, y"),
         ],
     )
     def test_refusals(self, options: dict[str, object], message: str) -> None:

@@ -149,7 +149,7 @@ def test_supports_of_the_roof_take_their_share_of_the_moment() -> None:
     share = overturning_share(gravity(without_roof()).system)
     assert 0.0 < share.x < 0.9
     assert share.x == pytest.approx(share.y, rel=1e-9)
-    assert f"carry {100.0 * min(share.x, share.y):.3g} % of" in share.sentence()
+    assert f"resist only {100.0 * min(share.x, share.y):.3g} % of" in share.sentence()
 
 
 @pytest.mark.filterwarnings("ignore::frames.ModelWarning")  # the roof's supports carry weight

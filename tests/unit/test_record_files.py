@@ -204,7 +204,7 @@ def test_every_format_of_the_table_is_tried() -> None:
         (esm().replace("NDATA: 1000", "NDATA: 2000"), "states 2000 samples, but the file has 10"),
         (esm().replace("NDATA: 1000", "NDATA: 500"), "states 500 samples, but the file has 1000"),
         (esm().replace("NDATA: 1000", "x"), "has no number of samples or no time step"),
-        (cosmos().replace("0.010000", "0.005000"), "names 10 s, and 1000 .* of 0.005 s last 5 s"),
+        (cosmos().replace("0.010000", "0.005000"), "states 10 s, but 1000 .* of 0.005 s last 5 s"),
         (smc("1 UNCORRECTED", 1.7e38), "uncorrected record with uneven times.*volume 2"),
         ("0.1\n0.2\n", 'is in no known format.*order="rows"'),
     ],
