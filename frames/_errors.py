@@ -60,7 +60,7 @@ class MotionError(ValueError):
     ...     GroundMotion(x=[0.0, 9810.0], dt=0.01)
     ... except MotionError as error:
     ...     print(str(error).split(":")[0])
-    x peaks at 9810 m/s2 = 1000 g, no ground shakes like that
+    x peaks at 9810 m/s2 = 1000 g, above any recorded ground motion
     """
 
 

@@ -173,7 +173,7 @@ def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     )
     if assumed:
         estimate = worded(
-            "axial_stiffness = {k:.3g} N/m is a default estimate: run with {low:g} and "
+            "the axial stiffness, {k:.3g} N/m, is a default estimate: run with {low:g} and "
             "{high:g} times it, or set the manufacturer's value",
             k=stiffness[k],
             low=low,

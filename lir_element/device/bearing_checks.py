@@ -50,7 +50,7 @@ class DesignWarning(TextWarning):
     ...     bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08,
     ...                          capacity=0.175, friction=0.066, interface_friction=0.067)
     >>> str(told[0].message).split(": ")[1]
-    'the interface slips before the slider meets a rim'
+    'the interface slips before rim contact. Raise it unless this is intended'
     """
 
 

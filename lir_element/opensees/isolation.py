@@ -54,7 +54,7 @@ class IsolationWarning(UserWarning):
     ...     warnings.simplefilter("always")
     ...     isolation = isolate([1], bearing)
     >>> str(told[0].message).split(":")[0]
-    'the base nodes have no mass'
+    'the base nodes have no mass, so the analysis needs small steps'
     >>> ops.wipe()
     """
 

@@ -38,7 +38,7 @@ class PlacementWarning(UserWarning):
     ...     warnings.simplefilter("always")
     ...     route = bearing_element(10, 1, 2, bearing)
     >>> str(told[0].message).split(":")[0]
-    'node 2, the upper one, is held by a support and node 1, the lower one, is not'
+    'node 2, the upper one, is supported and node 1, the lower one, is not'
     >>> ops.wipe()
     """
 

@@ -41,10 +41,6 @@ def of_the_readme() -> Iterator[tuple[str, str]]:
     yield "../README", f"gives {shear[2]} and {floor[2]} g."
     ((_, _, force, _),) = rows(VALIDATION("static_test"), r"largest force \(contact\)")
     yield "../README", f"the LIR-DCFP {number(force) / 150.0:.2f} times."
-    summary = text_of(VALIDATION("study_summary"))
-    for limit in ("storey drift 2 %", "ductility 4", "floor acceleration 1 g", "collapse"):
-        found = re.search(rf"{limit} ([\d.]+ \([\d.]+ to [\d.]+\))[;.]", summary)[1]
-        yield "../README", f"| {limit} | {found} |"
 
 
 def of_opensees() -> Iterator[tuple[str, str]]:

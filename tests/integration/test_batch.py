@@ -386,12 +386,12 @@ def test_a_structure_without_equilibrium_is_a_row(building, device, motions):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"scales": [0.5, 0.5]}, "scales: 0.5 is there twice"),
+        ({"scales": [0.5, 0.5]}, "scales: 0.5 occurs twice"),
         ({"scales": []}, "scales is empty"),
         ({"scales": 0.0}, "scale of a motion must not be 0"),
         ({"scales": 1.0, "cases": [("frame", "near", 1.0)]}, "leave scales out"),
         ({"cases": [("house", "near", 1.0)]}, "no model 'house'; there are 'frame'"),
-        ({"cases": [("frame", "near", 1.0)] * 2}, "is there twice"),
+        ({"cases": [("frame", "near", 1.0)] * 2}, "occurs twice"),
         ({"cases": [("frame", "near")]}, "name of model, name of motion, scale"),
         ({"level": "auto"}, 'does not support level="auto"'),
         ({"level": "rigid_body"}, 'does not support level="rigid_body"'),
@@ -421,7 +421,7 @@ def test_more_than_the_memory_holds_is_refused(building, motions, monkeypatch):
 
 
 def test_names_have_to_be_unique(building: Frame, motions: dict[str, GroundMotion]) -> None:
-    with pytest.raises(ValueError, match='two have the name "frame": give a mapping'):
+    with pytest.raises(ValueError, match='two have the name "frame": pass a mapping'):
         time_histories([building, building.copy("frame")], motions)
 
 

@@ -186,7 +186,7 @@ def test_refusals(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ValueError, match=r"contact_points = 24: .* use contact_points=None"):
         write_bearing(small_bearing(contact_points=24), folder / "x.lir", "contact")
     monkeypatch.setenv("CC", "no-such-compiler -O1")
-    with pytest.raises(SystemExit, match="no C compiler 'no-such-compiler' is found"):
+    with pytest.raises(SystemExit, match="the C compiler 'no-such-compiler' was not found"):
         main([str(folder / "other")])
     monkeypatch.setenv("CC", "false")
     with pytest.raises(SystemExit, match="the C compiler failed: false -O2"):

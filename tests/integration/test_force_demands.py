@@ -186,7 +186,7 @@ def moved(frame):
 
 def test_moved_runs_that_fail_or_kept_no_forces(runs, moved):
     failed = moved.copy()
-    failed["status"] = failed["status"].copy(data=["ok", "no_convergence"])
+    failed["status"] = failed["status"].copy(data=["ok", "no_equilibrium"])
     table = force_demands(cases(runs, failed))["members"]
     of_lower = table[table["bound"] == "lower"]
     assert set(of_lower["void"]) == {"runs with moved masses failed"}
@@ -208,7 +208,7 @@ def test_fewer_motions_count_with_the_largest(frame):
 
 def test_of_runs_that_failed_there_is_no_value(runs):
     data = runs["lower"].copy()
-    data["status"] = data["status"].copy(data=["ok"] * 5 + ["no_convergence"] * 2)
+    data["status"] = data["status"].copy(data=["ok"] * 5 + ["no_equilibrium"] * 2)
     table = force_demands(cases({"lower": data}, None, replace(RULES, unacceptable_allowed=1)))
     assert set(table["members"]["void"]) == {"2 of 7 runs failed"}
     allowed = force_demands(cases({"lower": data}, None, replace(RULES, unacceptable_allowed=2)))

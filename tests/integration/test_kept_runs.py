@@ -131,7 +131,7 @@ def test_runs_of_another_input_are_left_aside(tmp_path, monkeypatch, change) -> 
     given = {"models": model(), "motions": motions(), "scales": [0.2], "dt": 0.01}
     time_histories(**given, resume=tmp_path)
     told: list[BatchProgress] = []
-    with pytest.warns(ModelWarning, match="the 2 runs that .* are of another model"):
+    with pytest.warns(ModelWarning, match="the 2 runs in .* of another model"):
         time_histories(**given | change(monkeypatch), resume=tmp_path, progress=told.append)
     assert counted(told) == [2, 2, 0]
 

@@ -73,7 +73,7 @@ def said(action: Any, *words: str) -> None:
 def test_mass_at_the_master_of_a_diaphragm() -> None:
     """Its vertical support carries the floor: the bearings' 39 kN are named beside 7885 kN."""
     frame = storey(held=True)
-    said(lambda: gravity(frame), "39.23 of the 7885 kN", '"master" (7845 kN)', '"uz"')
+    said(lambda: gravity(frame), "39.23 of 7885 kN", '"master" (7845 kN)', '"uz"')
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)
         path = gravity(frame).load_path

@@ -186,7 +186,7 @@ def test_sticking_modes_have_the_tangent_stiffness_at_rest(options):
 def test_bad_input_is_refused():
     frame = lumped_mass(bearing(), 1e5)
     for count in (0, -3):
-        with pytest.raises(ModelError, match=f"count = {count} must be at least 1"):
+        with pytest.raises(ModelError, match=f"count = {count} must be an integer of at least 1"):
             modes(frame, count)
     with pytest.raises(ModelError, match=r"bearings = 'loose': choose one of .*sliding"):
         modes(frame, 1, "loose")

@@ -148,7 +148,7 @@ def test_friction_at_two_speeds(ops: Any, kind: str, frequency: float) -> None:
     [
         ("singleFPBearing", plain(interface_friction=0.2, capacity=0.2), "as_dcfp"),
         ("singleFPBearing", plain(capacity=0.2), r"capacity = 0.2 m.*rims=False"),
-        ("FPBearingPTV", plain(capacity=0.2), "no rims"),
+        ("FPBearingPTV", plain(capacity=0.2), "does not model rims"),
         ("TFP", plain(capacity=0.2), "choose TripleFrictionPendulum"),
         ("TFP", plain(friction=VelocityFriction(0.06, 0.03, 20.0)), "constant friction"),
         ("TripleFrictionPendulum", plain(friction=VelocityFriction(0.06, 0.03, 20.0)), "Coulomb"),

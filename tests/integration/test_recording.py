@@ -360,7 +360,7 @@ def test_saved_and_loaded(kind, tmp_path, whole):
 
 UNKNOWN = [
     ({"channels": ("bearing_forces",)}, 'channels: "bearing_forces".*did you mean "bearing_force"'),
-    ({"channels": ("weight",)}, 'channels: "weight" has no history, it is kept always'),
+    ({"channels": ("weight",)}, 'channels: "weight" is always recorded'),
     ({"bearings": ("bearing-9-9",)}, 'bearings: "bearing-9-9" is not among.*did you mean'),
     ({"nodes": ("attic",)}, 'nodes: "attic" is not among the nodes.*24 exist'),
     ({"levels": ("roof",)}, 'levels: "roof" is not among the levels.*3 exist'),

@@ -64,7 +64,7 @@ def test_round_off_of_stiff_and_soft_parts_is_scaled_away(recwarn: pytest.Warnin
 
 def test_round_off_that_cannot_be_scaled_away_is_a_doubt_by_name() -> None:
     labels = [f"n{k} ux" for k in range(12)]
-    with pytest.warns(ModelWarning, match=r'the stiffness near "n\d+ ux" is lost in the round-off'):
+    with pytest.warns(ModelWarning, match=r'the stiffness near "n\d+ ux" is lost to round-off'):
         solve_positive(scipy.linalg.hilbert(12), np.eye(12), "stiffness", labels)
 
 

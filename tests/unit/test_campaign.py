@@ -380,7 +380,7 @@ def test_histories_are_kept_on_request(tmp_path: Path) -> None:
     campaign.results()["peak"].isel(quantity=0).plot.scatter(x="motion")
     (part,) = (tmp_path / "store" / "histories").glob("000000-*.npz")
     part.write_bytes(part.read_bytes()[:5000])
-    with pytest.raises(CampaignError, match=r"000000-0.npz is not as it was written .*remove it"):
+    with pytest.raises(CampaignError, match=r"000000-0.npz is damaged .*remove it"):
         campaign.store.histories(7)
     refused(CampaignError, "run 99 has no histories", campaign.store.histories, 99)
 

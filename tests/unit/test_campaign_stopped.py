@@ -167,7 +167,7 @@ def test_a_store_that_cannot_be_made_leaves_nothing(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        *((f"runs/00000{k}.npz", "not as it was written .*: remove it, and run") for k in (0, 1)),
+        *((f"runs/00000{k}.npz", "damaged .*: remove it, and run") for k in (0, 1)),
         *((name, "damaged .* restore it from a copy") for name in OWN),
     ],
 )

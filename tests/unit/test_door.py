@@ -144,7 +144,7 @@ def test_messages_are_short_whatever_was_given(tmp_path: Path) -> None:
     }.items():
         assert len(str(refused(TypeError, words, attempt))) < 200
     (tmp_path / "notes.nc").write_text("no results")
-    words = r"notes\.nc holds no results .*: give a file that save"
+    words = r"notes\.nc has no results .*: use a file that save"
     refused(OSError, words, load, tmp_path / "notes.nc")
 
 

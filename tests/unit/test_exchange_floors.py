@@ -75,7 +75,7 @@ def test_meshes_that_cross_are_joined(tmp_path: Path) -> None:
 
 def test_a_mesh_of_too_many_elements_is_refused(tmp_path: Path) -> None:
     soft = whole().replace("TYPE RIGID", "TYPE SEMIRIGID")
-    with pytest.raises(ModelError, match=r"come to \d+ elements with mesh=0.01, at most 20000"):
+    with pytest.raises(ModelError, match=r"have \d+ elements with mesh=0.01 \(at most 20000\)"):
         frame_of(tmp_path, soft, mesh=0.01)
 
 

@@ -406,7 +406,7 @@ def test_a_base_without_mass_is_doubted(tmp_path: Path) -> None:
     ]
     tables["FRAME PROPERTY MODIFIERS"] = modifiers
     _, said = doubts(tmp_path, tables)
-    assert "the level on the bearings has 0.00" in said
+    assert "the level on the bearings has only 0.00" in said
     tables["JOINT ADDED MASS ASSIGNMENTS"] = [
         {"Joint": k} | {f"Mass{i}": 1.0 for i in (1, 2, 3)} for k in range(1, 7)
     ]

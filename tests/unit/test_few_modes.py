@@ -78,4 +78,4 @@ def test_unstable_structures_are_refused(frame: Frame, monkeypatch: pytest.Monke
     with pytest.raises(UnstableError, match="not positive definite"):
         few_modes(sparse.csr_array(k - 0.5 * m), m, 3)
     monkeypatch.setattr(frames.statics.modes, "_LARGE", 0)
-    refused(ModelError, "count = 0 must be at least 1", modes, frame, 0)
+    refused(ModelError, "count = 0 must be an integer of at least 1", modes, frame, 0)

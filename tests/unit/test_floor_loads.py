@@ -183,7 +183,7 @@ def test_the_mass_of_a_floor_is_at_the_ends_of_its_beams_and_weighs_once():
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"nodes": ["c0", "c1"]}, "needs 3 or more"),
+        ({"nodes": ["c0", "c1"]}, "name at least 3"),
         ({"nodes": ["c0", "c2", "c1", "c3"]}, "must form a convex outline"),
         ({"nodes": ["c0", "c1", "inside", "c2"]}, "must form a convex outline"),
         ({"nodes": ["c0", "c1", "gc2", "c3"]}, "not horizontal"),

@@ -179,7 +179,7 @@ def test_what_determines_no_curve_is_refused() -> None:
         ("grow with the intensity", fit_stripes, im, 1.0 - over, records),
         ("one length", fit_stripes, im, over[1:], records),
         ("positive", fit_stripes, -im, over, records),
-        ("3 at least", fit_capacities, [1.0, 2.0], ["a", "b"]),
+        ("at least 3", fit_capacities, [1.0, 2.0], ["a", "b"]),
         ("a record once", fit_capacities, [1.0, 2.0, 3.0], ["a", "a", "b"]),
         ("must be positive", fit_cloud, four, [0.0, 1.0, 2.0, 3.0], 1.0, names(4)),
         ("no rising line", fit_cloud, four, four[::-1], 1.0, names(4)),

@@ -21,7 +21,7 @@ def test_a_load_in_kilonewtons_is_told() -> None:
 def test_a_file_that_holds_no_results_is_told(tmp_path: Path) -> None:
     path = tmp_path / "other.nc"
     path.write_text("no results")
-    with pytest.raises(OSError, match=r"other\.nc holds no results \(netCDF\): give a file"):
+    with pytest.raises(OSError, match=r"other\.nc has no results \(netCDF\): use a file"):
         load(path)
 
 

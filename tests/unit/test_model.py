@@ -95,7 +95,7 @@ REFUSED = {
         (r"'vx'.*\"all\" or one of", lambda f: f.fix("base", "vx")),
         (r"names no degree of freedom", lambda f: f.fix("base")),
         (r'mass \[kg\] at node "base" = -2 must be at least', lambda f: f.add_mass("base", -2.0)),
-        (r"inertia .* must be 0 or greater", lambda f: f.add_mass("base", 1.0, (0.0, -1.0, 0.0))),
+        (r"inertia .* must be at least 0", lambda f: f.add_mass("base", 1.0, (0.0, -1.0, 0.0))),
         (r'"m" from "floor-1" to "twin" is 0 m', lambda f: f.add_member("m", *TWINS, COLUMN)),
         (r'starts and ends at node "base"', lambda f: f.add_member("m", "base", "base", COLUMN)),
         (r'"m" has no local axes', lambda f: f.add_member("m", *FAR, COLUMN, up=(0, 0, 2))),

@@ -301,7 +301,7 @@ def test_isolators_are_refused_by_their_tags(ops):
     ops.load(3, 0.0, 0.0, -4e5, 0.0, 0.0, 0.0)
     gravity_analysis(ops)
     with pytest.raises(
-        ModelError, match=r"one of 15 \(SingleFPSimple3d\); .*remove\('element', tag"
+        ModelError, match=r"one of the elements 15 \(SingleFPSimple3d\): .*remove\('element', tag"
     ):
         Frame.from_opensees([2], BEARING)
     ops.remove("element", 15)
@@ -378,7 +378,7 @@ def test_vertical_mass_can_be_given(ops):
     heavy = Frame.from_opensees([1, 2], BEARING, vertical_mass="horizontal", gravity=9.81)
     assert gravity(heavy).axial_forces.sum() == pytest.approx(9.81 * 3e4)
     for given, message in (
-        ("all", "vertical_mass = 'all': give"),
+        ("all", "vertical_mass = 'all': use"),
         ({20: 1.0}, "names node 20, which does not exist or is fixed vertically"),
         ({11: -1.0}, "vertical_mass .kg. of node 11"),
     ):

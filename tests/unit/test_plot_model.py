@@ -114,7 +114,7 @@ def test_modes(building):
     periods = modes(frame, 4, "fixed").periods
     for panel, period in zip(figure.axes, periods, strict=True):
         assert f"{period:.3g} s" in panel.get_title()
-    with pytest.raises(ValueError, match="count = 7: at most 6 modes"):
+    with pytest.raises(ValueError, match="count = 7: draw at most 6 modes"):
         plots.mode_shapes(frame, 7)
 
 

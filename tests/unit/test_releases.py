@@ -126,8 +126,8 @@ def test_end_forces_go_with_the_nodes():
 @pytest.mark.parametrize(
     ("releases", "words"),
     [
-        ({"k": HINGE}, "'k' is none; give ends"),
-        ({"i": ("M",)}, "'M' is none; give ends"),
+        ({"k": HINGE}, "'k' is not supported: use ends"),
+        ({"i": ("M",)}, "'M' is not supported: use ends"),
         ({"i": ("T",), "j": ("T",)}, '"T" at both ends leaves the rotation'),
     ],
 )

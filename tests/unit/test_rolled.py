@@ -69,7 +69,7 @@ def test_fillets_by_counting_points():
     [
         ((300, 300, 19, 11, 27), "depth = 300 m, at most 100 m"),
         ((0.3, 0.3, 0.019, 0.011, -1), "at least 0"),
-        ((0.3, 0.3, 0.15, 0.011, 0.0), "must leave"),
+        ((0.3, 0.3, 0.15, 0.011, 0.0), "exceed the depth"),
         ((0.3, 0.05, 0.01, 0.01, 0.03), "exceed"),
     ],
 )

@@ -162,7 +162,7 @@ def test_a_part_as_opensees_has_it():
     [
         (-0.5, None, "a = -0.5 m"),
         (3.0, 2.0, "begin before it ends"),
-        (0.0, 4000.0, "4 m long"),
+        (0.0, 4000.0, "within the member's 4 m"),
         (float("nan"), None, "must be finite"),
     ],
 )

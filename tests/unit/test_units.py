@@ -87,7 +87,10 @@ IMPOSSIBLE: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "stiffness in kN/mm": ({"axial_stiffness": 4730.0}, "4730 kN/mm are 4.73e.09 N/m"),
     "stiffness in kN/m": ({"axial_stiffness": 4.73e6}, r"4.73e\+06 kN/m are 4.73e\+09 N/m"),
-    "load in mN": ({"design_load": 6e8}, r"design_load = 6e\+08 N gives a slider pressure of 2.98e\+04 MPa"),
+    "load in mN": (
+        {"design_load": 6e8},
+        r"design_load = 6e\+08 N gives a slider pressure of 2.98e\+04 MPa",
+    ),
     "mu_h in per cent": ({"interface_friction": 13.0}, "13 % is 0.13"),
     "mm and kN/mm": (scaled(PAPER, 1e3) | {"axial_stiffness": 4730.0}, "85 mm are 0.085 m"),
 }

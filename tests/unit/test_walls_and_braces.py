@@ -157,7 +157,7 @@ REFUSED = {
     "wall above": (WALL + "storeys = [2, 3]", "a wall must start"),
     "thick": (WALL.replace("300 mm", "3000 mm"), "more than half of the length"),
     "storeys": (WALL + "storeys = [1, 4]", "within the 3 of the building"),
-    "wall twice": (WALL + WALL.replace('"0-0", "0-1"', '"0-1", "0-0"'), "is there twice"),
+    "wall twice": (WALL + WALL.replace('"0-0", "0-1"', '"0-1", "0-0"'), "occurs twice"),
     "over beams": (WALL.replace('"0-0", "0-1"', '"0-0", "2-0"'), "overlap or cross"),
     "material": (WALL.replace('material = "C30/37"\n', ""), "material is missing"),
     "concrete": (WALL.replace('"C30/37"', '"concrete"'), 'material = "concrete" is not known'),
@@ -194,7 +194,7 @@ def test_plans_whose_parts_do_not_meet() -> None:
         ({"beams": ()}, "has no base beam"),
         ({"heights": (3.0, 3.0)}, "no column reaches level 2"),
         ({"columns": (*columns, ColumnPart("C", 1, section))}, 'no column line "C"'),
-        ({"columns": (*columns, ColumnPart("A", 2, section))}, "storey 2 is none of the 1"),
+        ({"columns": (*columns, ColumnPart("A", 2, section))}, "storey 2 does not exist"),
         ({"walls": (WallPart("A", "D", 1, section),)}, 'no column line "D"'),
     ):
         with pytest.raises(ModelError, match=said):
