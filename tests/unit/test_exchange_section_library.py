@@ -80,7 +80,7 @@ BAD = {
     "cut": (FILE[:400], r"AISC14.xml, line \d+ is not valid XML"),
     "encoding": (
         FILE.replace("utf-8", "utf-88", 1),
-        r"AISC14.xml: is not valid XML .unknown encoding: utf-88",
+        r"AISC14.xml is not valid XML .unknown encoding: utf-88",
     ),
     "other": (
         "<html></html>",

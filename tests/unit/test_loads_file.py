@@ -165,7 +165,7 @@ def test_check_says_the_loads(tmp_path: Path) -> None:
     parts = parts_of(tmp_path, BARE + LOADS, "NCh2745")
     rows = dict(structure_rows(parts.file, parts.frame()))
     assert rows["loads of roof, besides the members"] == "dead 4, live 1, snow 1 kN/m²"
-    assert rows["loads of base, besides the members"] == "dead 3, live 5 kN/m2"
+    assert rows["loads of base, besides the members"] == "dead 3, live 5 kN/m²"
     assert rows["seismic mass"].startswith("members, 1 D + 0.25 L (NCh433")
     assert rows["average combination, no horizontal earthquake"] == "1 D + 0.5 L"
     (doubt,) = file_doubts(parts_of(tmp_path, BARE + '[loads]\ndead = "3 N/m2"\n').file)

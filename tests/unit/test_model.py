@@ -107,7 +107,7 @@ REFUSED = {
             lambda f: f.add_diaphragm("d", ["floor-1", "floor-2"]),
         ),
         (
-            r'"beside" of diaphragm "d" belongs to diaphragm "deck"',
+            r'"beside" of diaphragm "d" is already in diaphragm "deck"',
             lambda f: f.add_diaphragm("d", ["floor-1", "beside"]),
         ),
         (r'lists node "base" more than once', lambda f: f.add_level("l", ["base", "base"])),

@@ -108,7 +108,7 @@ def test_a_base_without_mass_is_told(ops):
         ({"base_nodes": [1, 7]}, "no node 7, but base_nodes"),
         ({"base_nodes": [1, 1]}, "lists node 1 more than once"),
         ({"base_nodes": []}, "base_nodes is empty"),
-        ({"base_nodes": [1]}, "nodes 2 are supports that carry elements, but no base nodes: name"),
+        ({"base_nodes": [1]}, "nodes 2 are supports of elements, but not base nodes: add"),
         ({"bearing": {1: BEARING}}, "node 2 is in base_nodes but not in bearing"),
         ({"vertical": "x"}, "vertical = 'x'"),
         ({"base_rotations": "loose"}, "base_rotations = 'loose': choose one of"),
