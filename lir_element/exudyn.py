@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -76,14 +76,15 @@ class ExudynBearing:
         self._kinds = OutputVariableType.Coordinates, OutputVariableType.Coordinates_t
         self._time: float | None = None
         size = _SIZE * len(ends)
+        force, tangent = cast("Any", self._force), cast("Any", self._jacobian)
         self.object_number = system.AddObject(
             ObjectGenericODE2(
                 nodeNumbers=self._nodes,
                 massMatrix=np.zeros((size, size)),
                 stiffnessMatrix=np.zeros((size, size)),
                 dampingMatrix=np.zeros((size, size)),
-                forceUserFunction=self._force,
-                jacobianUserFunction=self._jacobian,
+                forceUserFunction=force,
+                jacobianUserFunction=tangent,
             )
         )
 
