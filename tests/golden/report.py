@@ -208,9 +208,6 @@ def _from_csv(project, name, head, rows, tally, names=None):
                 shown(tally, label, text, value, factor)
             elif plain in {"unit"}:
                 tally.words("tables of the report", label, text, UNIT.get(value, value))
-            elif plain == "void":
-                found = "not valid" if value.strip() else ""
-                tally.words("tables of the report", label, text.strip("-"), found)
             elif plain == "clause":
                 tally.words("tables of the report", label, text.removesuffix(" *"), value)
             elif plain == "void":  # the reason is in a sentence

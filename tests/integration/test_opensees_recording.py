@@ -30,7 +30,7 @@ def test_all_names_of_responses(stand: Any) -> None:
     moved = (u[6:] - u[:6])[[2, 0, 1, 5, 3, 4]]  # local x, y, z: the bearing's z, x, y
     assert bearing_response(1, "deformation") == pytest.approx(moved, abs=1e-15)
     with pytest.raises(
-        KeyError, match=r"colour.* does not exist: choose one of .*axial_force.*slip"
+        KeyError, match=r"'colour' does not exist: choose one of .*axial_force.*slip"
     ):
         bearing_response(1, "colour")
     with pytest.raises(
