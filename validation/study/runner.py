@@ -157,7 +157,9 @@ def own_module(part: str) -> Any:
 
 
 def tried(file: CampaignFile, few: int) -> CampaignFile:
-    """Return a campaign's file with few records and few of its intensities, for a trial."""
+    """Return a campaign's file with few records and intensities at level pendulum, for a trial."""
+    analysis = file.analysis.model_copy(update={"level": "pendulum"})
+    file = file.model_copy(update={"analysis": analysis})
     given, bearing = file.motions, bearing_of(file.bearing)
     if given.pulses is not None:
         pulses = given.pulses.model_copy(
