@@ -146,6 +146,14 @@ def made_scenes() -> list[Scene]:
     ]
 
 
+def tcu065(folder: Path) -> GroundMotion | None:
+    """Return the three components of TCU065; None if the folder does not have them."""
+    x, y, z = paths = [folder / name for name in TCU065]
+    if not all(path.is_file() for path in paths):
+        return None
+    return GroundMotion.from_columns(x=x, y=y, z=z, dt=0.005, unit="g", name="TCU065")
+
+
 def recorded_scenes(folder: Path | None) -> list[Scene]:
     """Return the test cases of recorded motions that the folder holds."""
     scenes: list[Scene] = []
@@ -162,9 +170,8 @@ def recorded_scenes(folder: Path | None) -> list[Scene]:
                 explicit=6.0,
             )
         )
-    if all((folder / file).is_file() for file in TCU065):
-        x, y, z = (folder / file for file in TCU065)
-        motion = GroundMotion.from_columns(x=x, y=y, z=z, dt=0.005, unit="g", name="TCU065")
+    motion = tcu065(folder)
+    if motion is not None:
         motion = motion.trimmed(5.0, 25.0)
         scenes.append(
             Scene(

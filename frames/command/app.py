@@ -328,14 +328,12 @@ def _checks(title: str, checks: Checks) -> None:
     for each in checks:
         if each.verdict == "no value":
             continue
-        style = {"ok": "green", "FAILS": "red", "no value": "red"}.get(each.verdict, "yellow")
+        style = {"ok": "green", "FAILS": "red"}.get(each.verdict, "yellow")
         out.print(f"[{style}]{each.verdict:{width}}[/] ", end="")
         star = each.cited.removeprefix(each.clause)
         say(f"{each.brief} [{each.clause}]{star}")
-    void = checks.without_value
-    beyond = dict.fromkeys(each.title for each in void if each.compared > 1.0)
-    within = [title for title in dict.fromkeys(one.title for one in void) if title not in beyond]
-    for which, titles in (("beyond", [*beyond]), ("not beyond", within)):
+    beyond, within = checks.without_value.beyond_and_within
+    for which, titles in (("beyond", beyond), ("not beyond", within)):
         if titles:
             out.print(f"[red]no value[/], {which} the limit before the failure: ", end="")
             say("; ".join(titles))

@@ -24,7 +24,7 @@ from validation.multibody import (
     multibody_history,
 )
 from validation.page import Check, Claim, Page, render, run, stated
-from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, TCU065, example_bearing
+from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing, tcu065
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -184,13 +184,12 @@ def chi_chi(folder: Path) -> tuple[list[Check], dict[str, Measures], float]:
 
     The last number is the peak of Exudyn at half the step and half the zone of friction [mm].
     """
-    if not all((folder / name).is_file() for name in TCU065):
+    record = tcu065(folder)
+    if record is None:
         return [], {}, 0.0
-    x, y, z = (folder / name for name in TCU065)
-    record = GroundMotion.from_columns(x=x, y=y, z=z, dt=0.005, unit="g", name="TCU065")
     factor, begin, duration = CHI_CHI
-    first, samples = round(begin / record.dt), round(duration / record.dt)
-    motion = GroundMotion(x=factor * record.x[first : first + samples], dt=record.dt)
+    part = record.trimmed(begin, begin + duration - record.dt)
+    motion = GroundMotion(x=factor * part.x, dt=part.dt)
     found = multibody_history(example_bearing(), EXAMPLE_MASS, motion, duration)
     fine = multibody_history(example_bearing(), EXAMPLE_MASS, motion, 0.75 * duration, FINE)
     near, default = (reference(motion, e, duration) for e in (NEARLY_RIGID, ELASTIC[0]))

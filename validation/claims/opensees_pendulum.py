@@ -41,7 +41,7 @@ from validation.claims.opensees_causes import (
     there,
 )
 from validation.page import Check, Claim, Page, render, run, stated, table
-from validation.scenes import EXAMPLE_RECORD, TCU065
+from validation.scenes import EXAMPLE_RECORD, tcu065
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -155,10 +155,9 @@ def newhall_rows(record: GroundMotion) -> list[list[Row]]:
 
 def three_components(folder: Path) -> list[list[Row]]:
     """Leave out the causes under TCU065; nothing where the folder does not hold it."""
-    if not all((folder / name).is_file() for name in TCU065):
+    record = tcu065(folder)
+    if record is None:
         return []
-    x, y, z = (folder / name for name in TCU065)
-    record = GroundMotion.from_columns(x=x, y=y, z=z, dt=0.005, unit="g", name="TCU065")
     differences = partial(apart, record=record.scaled(SCALE))
     slow = Setting("TFP", speed=False, their_dt=1e-3)
     return [

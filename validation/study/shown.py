@@ -57,12 +57,17 @@ def where(table: pd.DataFrame, **chosen: object) -> pd.DataFrame:
     return table
 
 
+def _column(row: Mapping[str, Any], name: str) -> str:
+    # The column of this name, whatever its unit.
+    return next((str(c) for c in row.keys() if str(c).split(" [")[0] == name), name)  # noqa: SIM118
+
+
 def interval(row: Mapping[str, Any], name: str, form: str = ".2f", factor: float = 1.0) -> str:
     """Return a number of a row with its interval, or "above" its low end if it has no upper one.
 
     A median far beyond the stripes has none; a dash stands for no number.
     """
-    column = next((str(c) for c in row.keys() if str(c).split(" [")[0] == name), name)  # noqa: SIM118
+    column = _column(row, name)
     value = row.get(column)
     if value is None or pd.isna(value):
         return NONE
@@ -76,8 +81,7 @@ def interval(row: Mapping[str, Any], name: str, form: str = ".2f", factor: float
 
 def number(row: Mapping[str, Any], name: str, form: str = ".2f", factor: float = 1.0) -> str:
     """Return a number of a row by its column without the unit; "failed" if it is infinite."""
-    column = next((str(c) for c in row.keys() if str(c).split(" [")[0] == name), name)  # noqa: SIM118
-    value = row.get(column)
+    value = row.get(_column(row, name))
     if value is None or pd.isna(value):
         return NONE
     return "failed" if abs(value) == float("inf") else f"{factor * value:{form}}"

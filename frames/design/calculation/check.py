@@ -290,6 +290,13 @@ class Checks(Sequence[Check]):
         return Checks(check for check in self if check.verdict == "no value")
 
     @property
+    def beyond_and_within(self) -> tuple[list[str], list[str]]:
+        """Titles of checks beyond their limit in what failed runs reached, and the others."""
+        beyond = list(dict.fromkeys(check.title for check in self if check.compared > 1.0))
+        titles = dict.fromkeys(check.title for check in self)
+        return beyond, [title for title in titles if title not in beyond]
+
+    @property
     def inapplicable(self) -> Checks:
         """Limits of a procedure that are exceeded, so that it does not apply."""
         return Checks(check for check in self if check.verdict == "does not apply")

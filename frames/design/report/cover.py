@@ -232,13 +232,13 @@ def verdict_of(run: ProjectRun) -> Verdict:
     """Return the verdict of a run's checks."""
     void = run.checks.without_value
     by_value = [c for c in run.checks.failed if not c.void and c.symbol != "n_failed"]
-    beyond = _titles(check for check in void if check.compared > 1.0)
+    beyond, within = void.beyond_and_within
     return Verdict(
         by_value=len(by_value),
         worst=_worst(by_value),
         without_value=len(void),
         beyond=beyond,
-        within=[title for title in _titles(void) if title not in beyond],
+        within=within,
         failures=_failures(run.failures),
         failed=sum(one.failed for one in run.failures),
         runs=len(run.runs),
@@ -257,10 +257,6 @@ def _failures(failures: Iterable[FailedRuns]) -> Table:
         rows.append((cause, one.level, one.bound, f"{one.failed} / {one.of}", one.motions))
         before = one.cause
     return Table(("cause", "level", "bound", "failed", "motions"), rows, frozenset({0, 1, 2, 4}))
-
-
-def _titles(checks: Iterable[Check]) -> list[str]:
-    return list(dict.fromkeys(check.title for check in checks))
 
 
 def _worst(checks: Iterable[Check]) -> list[tuple[Judged, str]]:

@@ -269,23 +269,24 @@ def _annual(
     tail: float,
 ) -> Iterator[dict[str, object]]:
     # A row a structure: loss, parts, shares from beyond the intensities, ratio of the first.
-    first, first_drawn = None, None
+    curves = {name: np.array([*each.values()]) for name, each in means.items()}
+    year = {name: annual_losses(each, at, hazard).tolist() for name, each in curves.items()}
+    drawn = {name: annual_losses(each, at, hazard) for name, each in resampled.items()}
+    first = next(iter(means))
     highest = float(hazard.rates(np.clip(at[-1], *hazard.ends)))
     for name, each in means.items():
-        one, *parts = annual_losses(np.array([*each.values()]), at, hazard).tolist()
-        own = annual_losses(resampled[name], at, hazard)
+        one, *parts = year[name]
         inside = float(annual_losses(each[LOSS], at, hazard, lowest=float(at[0])))
-        low, high = _ends(own, tail)
+        low, high = _ends(drawn[name], tail)
         row: dict[str, object] = {"structure": name, "loss [1/year]": one}
         row |= {"loss, low [1/year]": low, "loss, high [1/year]": high}
         row |= {f"{part} [1/year]": v for part, v in zip(list(each)[1:], parts, strict=True)}
         row["below [-]"] = max(one - inside, 0.0) / one if one > 0.0 else 0.0
         row["above [-]"] = float(each[LOSS][-1]) * highest / one if one > 0.0 else 0.0
-        if first is None or first_drawn is None:
-            first, first_drawn = one, own
-        else:
-            low, high = _ends(first_drawn / own, tail)
-            row |= {"ratio [-]": first / one, "ratio, low [-]": low, "ratio, high [-]": high}
+        if name != first:
+            low, high = _ends(drawn[first] / drawn[name], tail)
+            ratio = year[first][0] / one
+            row |= {"ratio [-]": ratio, "ratio, low [-]": low, "ratio, high [-]": high}
         yield row
 
 
