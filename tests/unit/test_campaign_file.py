@@ -14,8 +14,9 @@ from typer.testing import CliRunner
 
 from frames.command.app import app
 from frames.design import ProjectError
+from frames.design.project.source_files import SourceFiles
 from frames.risk import Intensity, open_campaign, sobol_indices
-from frames.risk.campaign.file import read_campaign
+from frames.risk.campaign.file import campaign_file, read_campaign
 from lir_element.units import STANDARD_GRAVITY
 from tests.refusals import refused
 from tests.scenes import DEVICE
@@ -120,6 +121,31 @@ def test_messages_name_key_value_and_remedy(folder: Path, old: str, new: str, wo
     found = run(app, ["campaign", str(folder / "friction.toml")])
     assert found.exit_code == 2
     assert words in found.output.replace("\n", " ")
+
+
+def test_a_file_has_the_tables_of_those_that_it_is_based_on(folder: Path) -> None:
+    """Sections are merged by keys; changes and messages name the file that a key is from."""
+    name, base = (folder / f"{each}.toml" for each in ("friction", "building"))
+    shared, own = FILE.split("[motions]")
+    base.write_text(shared)
+    own = '[campaign]\nname = "Higher"\n[bearing]\nslider_height = "210 mm"\n[motions]' + own
+    name.write_text(f'based_on = "building.toml"\n{own}')
+    found = campaign_file(name)
+    (folder / "whole.toml").write_text(
+        FILE.replace("Friction of two storeys", "Higher").replace('"200 mm"', '"210 mm"', 1)
+    )
+    expected = campaign_file(folder / "whole.toml").model_dump()
+    assert found.model_dump() == expected | {"based_on": "building.toml"}
+    assert f"\n# building.toml\n{shared}" in found.source.decode()
+    sources = SourceFiles(found, folder)
+    base.write_text(shared.replace("radius", "radios", 1))
+    assert "building.toml was changed" in sources.changed()[0]
+    refused(ProjectError, r"building.toml: bearing.radios is not known", campaign_file, name)
+    for given in ("friction.toml", "../building.toml", "none.toml"):
+        name.write_text(f'based_on = ["{given}"]\n{own}')
+        refused(ProjectError, rf'friction.toml: based_on = "{given}" must', campaign_file, name)
+    name.write_text(own.replace("[bearing]", 'based_on = "building.toml"\n[bearing]'))
+    refused(ProjectError, "campaign.based_on .* before the first section", campaign_file, name)
 
 
 def test_pulses_over_the_period_of_the_bearing(folder: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import types
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import MISSING, fields, is_dataclass
 from difflib import get_close_matches
 from functools import cache
@@ -73,23 +73,29 @@ class Table(BaseModel):
 
 
 class WholeFile(Table):
-    """A whole file, with the bytes that it was read from."""
+    """A whole file, with the bytes of it and of those that it is based on."""
 
-    _read: tuple[Path | None, bytes] = PrivateAttr((None, b""))
+    _read: dict[Path, bytes] = PrivateAttr(default_factory=dict)
 
     @property
     def source_path(self) -> Path | None:
         """Path of the file, None if it was made in Python."""
-        return self._read[0]
+        return next(iter(self._read), None)
+
+    @property
+    def sources(self) -> Mapping[Path, bytes]:
+        """Content of the file, and of those that it is based on."""
+        return self._read
 
     @property
     def source(self) -> bytes:
-        """All that was read."""
-        return self._read[1]
+        """All that was read: the file, then those that it is based on after their names."""
+        first, *others = self._read.items() or [(Path(), b"")]
+        return first[1] + b"".join(f"\n# {p.name}\n".encode() + each for p, each in others)
 
-    def read_from(self, path: Path, content: bytes) -> Self:
-        """Return the file with its path and content."""
-        self._read = (path, content)
+    def read_from(self, read: dict[Path, bytes]) -> Self:
+        """Return the file with the paths and contents that it was read from."""
+        self._read = read
         return self
 
 

@@ -18,7 +18,7 @@ from frames.design.project.schema import project_file
 from frames.design.project.source_files import load_extensions
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from frames.design.project.schema import ProjectFile
 
@@ -54,9 +54,29 @@ def read_file(
 ) -> F:
     """Return a TOML file of a kind, checked as `read_project` does."""
     file = Path(path)
+    read: dict[Path, _Read] = {}
+    data = _merged(file, hint, read)
+    kind = kind_of(data)
+    try:
+        return kind.model_validate(data).read_from({each: read[each][0] for each in read})
+    except ValidationError as cause:
+        lines: dict[str, str] = {}  # the first of a key's alternatives
+        for error in _told(cause.errors()):
+            place = _place(error)
+            name = str(_origin(place, read) or file)
+            lines.setdefault(".".join(place), _line(name, data, error, kind, hint))
+        raise ProjectError("\n".join(lines.values())) from cause
+
+
+_Read = tuple[bytes, dict[str, Any]]
+"""Content of a file, and its tables."""
+
+
+def _loaded(file: Path, hint: str) -> _Read:
+    # A file of TOML; errors of its syntax have their remedy.
     try:
         content = file.read_bytes()
-        data = tomllib.loads(content.decode("utf-8").replace("\r\n", "\n"))
+        return content, tomllib.loads(content.decode("utf-8").replace("\r\n", "\n"))
     except OSError as cause:
         msg = f"{_short(file)}: {cause.strerror or cause}: give a file, {hint}"
         raise ProjectError(msg) from cause
@@ -71,14 +91,37 @@ def read_file(
         what = "brackets are nested too deep" if isinstance(cause, RecursionError) else cause
         msg = f"{_short(file)} cannot be read: {what}: {_mended('', '')}"
         raise ProjectError(msg) from cause
-    kind = kind_of(data)
-    try:
-        return kind.model_validate(data).read_from(file, content)
-    except ValidationError as cause:
-        lines: dict[str, str] = {}  # the first of a key's alternatives
-        for error in _told(cause.errors()):
-            lines.setdefault(".".join(_place(error)), _line(str(file), data, error, kind, hint))
-        raise ProjectError("\n".join(lines.values())) from cause
+
+
+def _merged(file: Path, hint: str, read: dict[Path, _Read]) -> dict[str, Any]:
+    # Tables of a file, each with the keys of the files that it is based on and lacks itself.
+    read[file] = _loaded(file, hint)
+    own, found = read[file][1], dict[str, Any]()
+    names = own.get("based_on", [])
+    bases = []
+    for name in names if isinstance(names, list) else [names]:
+        base = file.parent / str(name)
+        if base.parent != file.parent or base in read or not base.is_file():
+            msg = f'{file}: based_on = "{name}" must be another file in its folder, read once'
+            raise ProjectError(msg)
+        bases.append(_merged(base, hint, read))
+    for tables in (*bases, own):
+        for key, given in tables.items():
+            known = found.get(key)
+            both = isinstance(given, dict) and isinstance(known, dict)
+            found[key] = {**known, **given} if both else given
+    return found
+
+
+def _origin(place: Sequence[str], read: Mapping[Path, _Read]) -> Path | None:
+    # The file that a key is from, the first of those that have it.
+    for path, (_, data) in read.items():
+        table = data.get(place[0]) if place else None
+        if isinstance(table, dict) and place[1:]:
+            table = table.get(place[1])
+        if table is not None:
+            return path
+    return None
 
 
 def _short(text: object) -> str:
@@ -139,6 +182,8 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
         own = [section for section in _sections_with(place[-1], whole) if section != place[0]]
         if own and len(place) > 1:
             meant = f": it is a key of [{'] and ['.join(own)}]; move it there"
+        if len(place) > 1 and place[-1] in whole.model_fields:
+            meant = ": it stands alone, before the first section; move it there"
         return f"{name}: {key} is not known{meant}"
     if kind.startswith("union_tag"):
         return _of_a_kind(name, key, error)

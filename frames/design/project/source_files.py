@@ -135,9 +135,7 @@ class SourceFiles:
         given: Any = file  # either has a structure and motions
         about = given.project if hasattr(file, "project") else given.campaign
         self.text = file.source.decode("utf-8", "replace")
-        self._digests: dict[Path, str] = {}
-        if file.source_path is not None:
-            self._digests[file.source_path] = _hash(file.source)
+        self._digests = {path: _hash(content) for path, content in file.sources.items()}
         for path in _named(given, folder):
             self._digests[path] = _digest_of(path)
         scripts = [(folder / name).resolve() for name in about.extensions]

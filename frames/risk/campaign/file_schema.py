@@ -311,8 +311,9 @@ class CompareTable(Table):
 
 
 class CampaignFile(WholeFile):
-    """A whole file."""
+    """A whole file, with the tables of those that it is based on."""
 
+    based_on: str | tuple[str, ...] = ()
     campaign: CampaignTable
     structure: Structure | None = None
     structures: dict[str, Structure] = Field(default_factory=dict)
