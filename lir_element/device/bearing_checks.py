@@ -8,11 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from lir_element.argument_checks import (
-    as_pair,
-    require_choice,
-    require_type,
-)
+from lir_element.argument_checks import as_pair, require_choice, require_type
 from lir_element.device.friction import FrictionLaw
 from lir_element.device.heating import FrictionHeating, PressureDependence
 from lir_element.device.sanity_checks import (
@@ -27,7 +23,7 @@ from lir_element.device.sanity_checks import (
 )
 from lir_element.device.specification import BackupSupport
 from lir_element.texts import TextWarning
-from lir_element.units import STANDARD_GRAVITY, meant
+from lir_element.units import meant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -147,9 +143,8 @@ def _of_geometry(bearing: Specification) -> Iterator[str]:
     flat = max(bearing.radii) >= FLAT
     if bearing.effective_radius > LONGEST_PENDULUM and not flat:
         radius = max(bearing.radii)
-        period = 2.0 * math.pi * math.sqrt(bearing.effective_radius / STANDARD_GRAVITY)
         yield (
-            f"radius = {radius:g} m makes a pendulum of {period:.0f} s: "
+            f"radius = {radius:g} m makes a pendulum of {bearing.period:.0f} s: "
             f"{meant(radius, 'm', 0.02, 15.0)}; a flat surface has {FLAT:g} m or more"
         )
     height, edge = bearing.slider_height, bearing.slider_radius

@@ -24,13 +24,13 @@ from frames.design import ProjectError
 from frames.risk import CampaignError, FragilityError, Intensity, LossComponent, open_campaign
 from frames.risk.campaign.comparison import (
     OTHERS,
-    ComparedDevices,
     collapse_limit,
     dish_diameter,
     filling_intensity,
 )
 from frames.risk.campaign.devices import Device, highest_ratio, moat_of
 from frames.risk.campaign.file import comparison_in, loss_in, models_in, read_campaign
+from frames.risk.campaign.file_schema import CompareTable
 from frames.risk.campaign.search import MedianSearch
 from lir_element import AnalysisWarning
 from tests.refusals import refused
@@ -133,7 +133,7 @@ def likeliest_median(im: np.ndarray, exceeded: np.ndarray) -> float:
 
 
 def test_devices_are_what_they_are_called() -> None:
-    asked = ComparedDevices(others=OTHERS, rims=(0.5, "unbreakable"), slider_radius=0.15)
+    asked = CompareTable(devices=OTHERS, rims=(0.5, "unbreakable"), slider_radius="150 mm")
     frames = asked.frames(lumped_mass(BEARING, 3e4))
     devices = {name: next(iter(frame.bearings.values())).bearing for name, frame in frames.items()}
     of_rims = {
@@ -246,7 +246,7 @@ def test_structures_that_cannot_be_are_refused(
 
 def test_without_strengths_rims_are_those_of_the_bearing() -> None:
     frame = lumped_mass(BEARING, 3e4)
-    asked = ComparedDevices(others=("DCFP", "larger DCFP"), larger=0.4)
+    asked = CompareTable(devices=("DCFP", "larger DCFP"), larger="400 mm")
     found = {
         name: next(iter(each.bearings.values())).bearing
         for name, each in asked.frames(frame).items()
@@ -261,14 +261,14 @@ def test_without_strengths_rims_are_those_of_the_bearing() -> None:
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
-        ({"others": ("larger DCFP",), "larger": 0.1}, "above the capacity"),
-        ({"others": ("DCFP of the same plan",), "slider_radius": 0.2}, "must be below the 200 mm"),
-        ({"others": ("DCFP",)}, "has a rigid slider"),
+        ({"devices": ("larger DCFP",), "larger": "100 mm"}, "above the capacity"),
+        ({"devices": ("DCFP of the same plan",), "slider_radius": "200 mm"}, "below the 200 mm"),
+        ({"devices": ("DCFP",)}, "has a rigid slider"),
     ],
 )
 def test_devices_that_cannot_be_are_refused(asked: dict[str, Any], words: str) -> None:
     bearing = BEARING.as_dcfp() if "rigid" in words else BEARING
-    frames = ComparedDevices(**asked).frames
+    frames = CompareTable(**asked).frames
     refused(CampaignError, words, frames, lumped_mass(bearing, 3e4))
 
 

@@ -40,16 +40,15 @@ Strength = float | Literal["unbreakable"]
 """Strength of rims: yield force over the design load [-], or unbreakable."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class ComparedDevices:
-    """Devices of a comparison."""
+    """Devices of a comparison: the part of ``[compare]`` that makes them."""
 
-    others: Sequence[str]  # of `OTHERS`
+    devices: tuple[str, ...]  # of `OTHERS`
     # strengths of the rims over the design load, each of which all devices with rims have; empty:
     # the rims of the bearing
-    rims: Sequence[Strength] = ()
-    slider_radius: float | None = None  # of the DCFP of the same plan [m]
-    larger: float | None = None  # capacity of the larger DCFP [m]; None: it has no rims
+    rims: tuple[Strength, ...]
+    slider_radius: float | None  # of the DCFP of the same plan [m]
+    larger: float | None  # capacity of the larger DCFP [m]; None: it has no rims
 
     def frames(self, frame: Frame) -> dict[str, Frame]:
         """Return the structure on each device."""
@@ -58,7 +57,7 @@ class ComparedDevices:
                 lacking = "a rigid slider" if link.bearing.is_dcfp else "no rims"
                 msg = f"bearing {name} has {lacking}: set its interface_friction and capacity"
                 raise CampaignError(msg)
-        made = {LIR: Device()} | {n: self._device(n, frame) for n in OTHERS if n in self.others}
+        made = {LIR: Device()} | {n: self._device(n, frame) for n in OTHERS if n in self.devices}
         found: dict[str, Frame] = {}
         for name, device in made.items():
             for strength in self.rims or (None,):
@@ -71,7 +70,7 @@ class ComparedDevices:
         """Return the names of devices with the same rims, the LIR-DCFP first, by their rims."""
         found = {}
         for strength in self.rims or (None,):
-            names = [LIR, *(name for name in OTHERS if name in self.others)]
+            names = [LIR, *(name for name in OTHERS if name in self.devices)]
             found[_rims(strength) if strength is not None else "rims of the bearing"] = [
                 _named(n, None if n == LARGER and self.larger is None else strength) for n in names
             ]

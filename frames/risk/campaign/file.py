@@ -229,7 +229,7 @@ def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
     considered = asked.maximum_considered
     if filling and measure is not None and measure.period is not None:
         considered = filling_intensity(bearing, measure.period)
-    own = asked.made().groups()
+    own = asked.groups()
     if file.devices:
         firsts = asked.own or tuple(file.devices)[:1]
         rims = "the rims of each"
@@ -336,7 +336,7 @@ def _devices(frame: Frame, file: CampaignFile) -> dict[str, Frame]:
         tables = file.devices.items()
         return {n: in_section(f"devices.{n}", partial(made, each)) for n, each in tables}
     if file.compare is not None:
-        return file.compare.made().frames(frame)
+        return file.compare.frames(frame)
     devices = file.campaign.devices
     plain = {name: link.bearing.as_dcfp() for name, link in frame.bearings.items()}
     both = {"LIR-DCFP": frame, "DCFP": frame.with_bearings(plain)}

@@ -263,7 +263,7 @@ class CampaignAnalysis(Table):
     workers: int | None = Field(default=None, ge=1)
 
 
-class CompareTable(Table):
+class CompareTable(ComparedDevices, Table):
     """``[compare]``: devices beside the LIR-DCFP, strengths of their rims, collapse."""
 
     devices: tuple[str, ...] = Field(default=("DCFP", "larger DCFP"), min_length=1)
@@ -295,15 +295,6 @@ class CompareTable(Table):
                 msg = f"{key} = {list(values)} has one twice: name it once"
                 raise ValueError(msg)
         return self
-
-    def made(self) -> ComparedDevices:
-        """Return the devices if the file has none of its own."""
-        return ComparedDevices(
-            others=self.devices,
-            rims=self.rims,
-            slider_radius=self.slider_radius,
-            larger=self.larger,
-        )
 
     def collapse(self) -> LimitState:
         """Return the definition of collapse."""

@@ -16,14 +16,13 @@ from frames.results.storage import csv_of, write_whole
 from frames.risk.campaign.comparison import LIR
 from frames.risk.campaign.plot_response import response_by_factor
 from frames.risk.campaign.tables import CONFIDENCE
-from frames.risk.fragility.plot_fragility import fragility_curves, shown_intensity
+from frames.risk.fragility.plot_fragility import draw_curve, fragility_curves, shown_intensity
 from lir_element._version import package_version
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from frames.risk.campaign.comparison import DeviceComparison
@@ -246,7 +245,7 @@ def device_curves(
         for k, (name, each) in enumerate(runs.items()):
             curve = curves.get(limit.name, {}).get(name)
             if curve is not None:
-                _curve(panel, curve, at, factor, k, confidence)
+                draw_curve(panel, curve, at, factor, ps.line_of(k), confidence)
             im, shares = shares_exceeded(each, limit)
             color = ps.PALETTE[k]
             panel.plot(factor * im, shares, MARKERS[k], markersize=3.0, color=color)
@@ -272,16 +271,6 @@ def shares_exceeded(runs: IntensityRuns, limit: LimitState) -> tuple[np.ndarray,
     found = np.array(sorted(each))
     known = [each[im][~np.isnan(each[im])] for im in found.tolist()]
     return found, np.array([own.mean() if len(own) else np.nan for own in known])
-
-
-def _curve(
-    panel: Axes, curve: Fragility, at: np.ndarray, factor: float, k: int, confidence: float
-) -> None:
-    table, look = curve.to_dataframe(at, confidence), ps.line_of(k)
-    panel.fill_between(
-        factor * at, table["low"], table["high"], alpha=0.15, color=look["color"], linewidth=0.0
-    )
-    panel.plot(factor * at, table["probability"], **look)
 
 
 def write_page(

@@ -83,15 +83,7 @@ def fragility_curves(
     handles: list[Artist] = []
     for k, (name, curve) in enumerate(named):
         look = ps.line_of(k, 0.3)
-        if curve.records:
-            panel.fill_between(
-                size * im,
-                *curve.band(im, confidence),
-                color=look["color"],
-                alpha=0.15,
-                linewidth=0.0,
-            )
-        panel.plot(size * im, curve.probability(im), **look)
+        draw_curve(panel, curve, im, size, look, confidence)
         _data(panel, curve, size, look["color"])
         handles.append(Line2D([], [], label=name, **look))
     if any(curve.records for curve in many):
@@ -102,6 +94,16 @@ def fragility_curves(
     ps.caption(panel, x=text, y="probability of exceedance [-]")
     ps.add_legend(figure, handles, columns=2, title="Fragility")
     return figure
+
+
+def draw_curve(
+    panel: Axes, curve: Curve, im: FloatArray, size: float, look: dict[str, Any], confidence: float
+) -> None:
+    """Draw a curve over intensities times a factor, with its band if it has records."""
+    if curve.records:
+        band = curve.band(im, confidence)
+        panel.fill_between(size * im, *band, color=look["color"], alpha=0.15, linewidth=0.0)
+    panel.plot(size * im, curve.probability(im), **look)
 
 
 def _named(what: str, given: Any, kinds: tuple[type, ...], one: str) -> list[tuple[str, Any]]:
