@@ -179,9 +179,9 @@ def test_types_of_bearings_by_groups_of_links(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("program", ["etabs", "sap2000"])
-def test_export_hands_over_what_another_program_confirms(tmp_path: Path, program: str) -> None:
+def test_export_hands_over_what_another_program_confirms(tmp_path, put_example, program):
     """Links add up to the code's stiffness and damping; the spectrum gives its displacement."""
-    example.write_example(tmp_path, "EN 1998")
+    put_example(tmp_path, "EN 1998", whole=True)
     out = tmp_path / "out"
     told = ["export", str(tmp_path / "project.toml"), "--to", program, "--results", str(out)]
     done = CliRunner().invoke(app, told)

@@ -9,7 +9,7 @@ import textwrap
 from copy import copy
 from functools import cache
 from importlib import resources
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import jinja2
 import numpy as np
@@ -23,6 +23,7 @@ from lir_element.texts import Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+    from types import CodeType
 
     import pandas as pd
     from matplotlib.figure import Figure
@@ -181,6 +182,17 @@ class Picture(NamedTuple):
     source: str  # a data URI of a PNG file
 
 
+class _Compiled(jinja2.BytecodeCache):
+    # Templates that this process has compiled: the code is the same in each language.
+    kept: ClassVar[dict[tuple[str, str], CodeType | None]] = {}
+
+    def load_bytecode(self, bucket: jinja2.bccache.Bucket) -> None:
+        bucket.code = self.kept.get((bucket.key, bucket.checksum))
+
+    def dump_bytecode(self, bucket: jinja2.bccache.Bucket) -> None:
+        self.kept[bucket.key, bucket.checksum] = bucket.code
+
+
 def page_template(
     name: str, package: str = "frames.design.report", words: Words | None = None
 ) -> jinja2.Template:
@@ -193,6 +205,8 @@ def page_template(
         trim_blocks=True,
         lstrip_blocks=True,
         extensions=["jinja2.ext.i18n"],
+        optimized=False,  # which would keep what filters make of constant texts
+        bytecode_cache=_Compiled(),
     )
     room.policies["ext.i18n.trimmed"] = True
     said = words or Words()
