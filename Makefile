@@ -30,8 +30,11 @@ test: $(READY)  ## lint, types and all tests
 suite: kernels
 	$(RUN) -m pytest -n auto --maxprocesses 4 --dist worksteal
 
-nightly: $(READY)  ## what takes minutes: compiling, the site, more random cases, all reviewed projects
+nightly: $(READY)  ## what takes minutes: compiling, the site, more random cases, all reviewed projects, xara
 	$(RUN) -m pytest -m nightly
+	$(RUN) -m pip install --disable-pip-version-check --quiet "opensees>=0.1.31" || \
+		echo "opensees, the library of xara, cannot be installed; its tests are skipped"
+	$(RUN) -m pytest tests/integration/test_xara.py
 
 kernels: $(READY)  ## compile the kernels of usual analyses, once
 	$(RUN) -m frames.precompile

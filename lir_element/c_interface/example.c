@@ -27,7 +27,8 @@ int main(int count, char **words)
     double time, u[12], v[12], force[12], tangent[144];
     int code = count == 2 ? lir_read(words[1], bearing, LIR_SIZE) : LIR_NO_FILE;
     if (code != LIR_OK) {
-        fprintf(stderr, "lir_read: code %d (lir_element.h), use ./example BEARING.lir\n", code);
+        fprintf(stderr, "%s: code %d of lir_read (lir_element.h); use ./example BEARING.lir\n",
+                count == 2 ? words[1] : "no file", code);
         return EXIT_FAILURE;
     }
     while (read_step(&time, u, v)) {

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import functools
 import importlib
 import importlib.util
 import sys
@@ -96,15 +95,13 @@ def commands_of(ops: Any = None) -> Any:
         return opensees()
     if getattr(ops, "__name__", "") == _NAME or isinstance(ops, XaraCommands):
         return ops
-    if not hasattr(ops, "eval"):
-        msg = f"ops = {ops!r} must be a model of xara (xara.Model), or left out for OpenSeesPy"
+    if not (hasattr(ops, "eval") and hasattr(ops, "nodeDisp")):
+        msg = (
+            f"ops = {ops!r} must be a model of xara, as xara.Model(ndm=3, ndf=6), or left out "
+            "for OpenSeesPy"
+        )
         raise TypeError(msg)
-    return _commands_of_xara(ops)
-
-
-@functools.cache  # the same model has the same commands; xara keeps models until the end, too
-def _commands_of_xara(model: Any) -> XaraCommands:
-    return XaraCommands(model)
+    return vars(ops).setdefault("_lir_commands", XaraCommands(ops))  # one for each model
 
 
 def _load_bundled_libraries() -> None:

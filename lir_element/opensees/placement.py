@@ -196,8 +196,8 @@ def _coordinates(ops: Any, tag: int) -> Floats:
     if tag not in ops.getNodeTags():
         msg = f"node {tag} is not in the current OpenSees model: add it before the bearing"
         raise ValueError(msg)
-    point = np.array(ops.nodeCoord(tag), dtype=np.float64)
-    ndf = len(ops.nodeDisp(tag))
+    point = np.array(ops.nodeCoord(tag), dtype=np.float64, ndmin=1)  # xara has a number for one
+    ndf = np.size(ops.nodeDisp(tag))
     if _NDF.get(len(point)) != ndf:
         msg = (
             f"node {tag} has {len(point)} coordinates and {ndf} degrees of freedom: a bearing "

@@ -1,14 +1,18 @@
 """Bearings in models of xara, another OpenSees, beside OpenSeesPy."""
 
+import gc
+import json
+import weakref
 from dataclasses import replace
-from importlib import import_module
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 pytest.importorskip("openseespy", reason="openseespy is not installed")
-pytest.importorskip("xara", reason="xara is not installed")
+pytest.importorskip("opensees", reason="xara is not installed")
+
+from opensees import openseespy as rt  # of which xara.Model is made; xara itself needs Python 3.12
 
 from lir_element.opensees import RouteWarning, bearing_response, bearing_tags, opensees
 from lir_element.opensees import record_bearings as record
@@ -20,8 +24,7 @@ from tests.integration.stand import Stand
 @pytest.fixture
 def stands():
     """The same stand in OpenSeesPy, in the module of xara, and in a model of xara."""
-    model = import_module("xara").Model("basic", "-ndm", 3, "-ndf", 6)
-    all_ops = opensees(), import_module("opensees.openseespy"), model
+    all_ops = opensees(), rt, rt.Model("basic", "-ndm", 3, "-ndf", 6)
     yield [Stand(ops, "portable", host=ops) for ops in all_ops]
     for ops in all_ops:
         ops.wipe()
@@ -99,9 +102,32 @@ def test_what_is_not_served_is_named(stands):
     with pytest.raises(ValueError, match="element 1 is in the model already"):
         stand.put(1, 1, 2)
     stand.route = "fast"
-    with pytest.raises(NotPossibleError, match=r'xara exports neither .*take route="portable"'):
+    with pytest.raises(NotPossibleError, match=r'xara exports neither .*use route="portable"'):
         stand.put(2, 1, 2)
-    stand.host = "model"
-    with pytest.raises(TypeError, match="ops = 'model' must be a model of xara"):
-        stand.put(2, 1, 2)
+    for host in ("model", rt.Model, json):
+        stand.host = host
+        with pytest.raises(TypeError, match=r"ops = .* must be a model of xara, as xara\.Model\("):
+            stand.put(2, 1, 2)
     assert bearing_tags(stand.ops) == (1,)
+
+
+@pytest.mark.parametrize(("ndm", "ndf"), [(1, 1), (2, 2), (3, 3)])
+def test_degrees_of_freedom_are_named(ndm, ndf):
+    model = rt.Model(ndm=ndm, ndf=ndf)
+    for node in (1, 2):
+        model.node(node, *[0.0] * ndm)
+    with pytest.raises(ValueError, match=f"has {ndm} coordinates and {ndf} degrees of freedom"):
+        Stand(model, "portable", host=model).put(1, 1, 2)
+
+
+def test_a_model_that_is_wiped_and_dropped_is_no_longer_kept():
+    model = rt.Model(ndm=2, ndf=3)
+    for node in (1, 2):
+        model.node(node, 0.0, 0.0)
+    Stand(model, "portable", host=model).put(1, 1, 2)
+    model.wipe()
+    assert bearing_tags(model) == ()
+    kept = weakref.ref(model)
+    del model
+    gc.collect()
+    assert kept() is None
