@@ -43,9 +43,9 @@ def with_moved_masses(frame: F, shares: tuple[float, float], name: str | None = 
 
     Floors are the levels of the frame, or the elevations of its masses above the bearings if it has
     none; a mass belongs to the nearest. If masses are at several nodes of a floor, each becomes ``m
-    (1 + a (s - s_c))`` along the axis s, with ``a = c M / sum(m (s - s_c)^2)``, which moves their
-    centre s_c by c and keeps their sum M. A floor whose masses are at one node, or too close
-    together, carries them rigidly at the distance c, ``M_rz,ux = -m c_y``, ``M_rz,uy = m c_x``,
+    (1 + a (s - s_c))`` along the axis s, with ``a = c M / sum(m (s - s_c)^2)``. This moves their
+    centre s_c by c and keeps their sum M. If the masses of a floor are at one node, or too close
+    together, it carries them rigidly at the distance c: ``M_rz,ux = -m c_y``, ``M_rz,uy = m c_x``,
     ``M_rz,rz = m c^2``. The side of that floor is that of the whole structure, else that of its
     nodes. Only the inertia in plan moves. A pendulum's stiffness is proportional to its load, so
     that moved weights would also move the centre of stiffness, and remove most of the torsion

@@ -188,9 +188,9 @@ def energy_shares(model: OpenSeesModel, tags: Collection[int], vertical: int) ->
     The compliance to a load changes by that share of the change of an element's stiffness:
     ``d(u' F) / (u' F) = -share dk / k``.
 
-    In an element that is free of force in rigid motions the energy is a sum over pairs of its
-    nodes, ``-u_a' K_ab (u_b - R_ab u_a) / 2`` in both orders; R_ab is the rigid motion of node b
-    with node a. So the blocks of the assembled stiffness are enough.
+    If an element is free of force in rigid motions, its energy is a sum over pairs of its nodes.
+    A pair has ``-u_a' K_ab (u_b - R_ab u_a) / 2`` in both orders; R_ab is the rigid motion of node
+    b with node a. So the blocks of the assembled stiffness are enough.
     """
     at = {tag: place for place, tag in enumerate(model.tags)}
     pairs: dict[tuple[int, int], list[int]] = {}

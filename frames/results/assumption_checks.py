@@ -77,10 +77,10 @@ def audit(data: xr.Dataset) -> Findings:
     Returns
     -------
     tuple of Finding
-        One for each feature, in the order of `Features.names()`, one on full contact, one on the
-        stable limit of interface slip, and one on the sum of all forces. If they apply: one on rim
-        contact with a slip, one on the yield displacement, one on the rotation of hinges, one on
-        nodes accelerated by more than 50 g, and one on the error of a given step.
+        One for each feature, in the order of `Features.names()`. Then one each on full contact, on
+        the stable limit of interface slip, and on the sum of all forces. If they apply, further
+        ones: on rim contact with a slip, on the yield displacement, on the rotation of hinges, on
+        nodes accelerated by more than 50 g, and on the error of a given step.
 
     Raises
     ------

@@ -260,8 +260,8 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
     -------
     xarray.DataArray
         The gap (time, bearing) [m], 0 if a contact is closed. It is measured from the place of the
-        upper sphere's centre over the lower one, which is ``c = L n + s`` at the closing of the
-        contact (docs/theory.md, section 1); tilts of the plates shift it.
+        upper sphere's centre over the lower one. At the closing of the contact this is
+        ``c = L n + s`` (docs/theory.md, section 1); tilts of the plates shift it.
 
     Raises
     ------

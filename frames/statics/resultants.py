@@ -107,9 +107,9 @@ _AT_ONCE = 256  # steps, of which the accelerations of all nodes are formed toge
 class Resultants:
     """Sums of all forces on the parts that only bearings support.
 
-    A rigid motion q_r of the parts of the structure without supports causes no elastic force:
+    A rigid motion q_r of the parts of the structure without supports causes no elastic force.
     ``q_r' (M a + K_g q + B' f - p)`` is the sum of inertia, of the axial forces' effect on
-    displacements, of bearing forces and of loads, which is zero in equilibrium. Sums with forces of
+    displacements, of bearing forces and of loads. In equilibrium it is zero. Sums with forces of
     supports or of fixed rotations of a node are not formed.
     """
 

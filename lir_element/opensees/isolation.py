@@ -201,7 +201,7 @@ def isolate(
 
     The superstructure must leave the base free to rise: a pendulum rises as it moves, by ``U**2 /
     (2 L)``. An old vertical spring under a column, a tie to the ground or a stiff wall on fixed
-    supports resists the rise, and so changes the loads of the bearings. Supports
+    supports resists the rise. So the loads of the bearings change. Supports
     (`base_rotations`), base beams or continuous columns must hold the rotations of the upper plates
     about horizontal axes. A bearing does not.
 

@@ -154,9 +154,9 @@ def uplift_table(
 ) -> pd.DataFrame:
     """Return the uplift of bearings [m], and the tension of a restraint that would prevent it [N].
 
-    `gaps` has the largest gap of each bearing in all runs [m], `linear` the overturning force of
-    the equivalent-linear analysis beyond the least permanent load [N], negative if the bearing
-    stays pressed.
+    `gaps` has the largest gap of each bearing in all runs [m]. `linear` has the overturning force
+    of the equivalent-linear analysis beyond the least permanent load [N]. It is negative if the
+    bearing stays pressed.
     """
     least = least_loads(reactions)
     names = list(least.index)

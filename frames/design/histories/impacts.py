@@ -136,8 +136,8 @@ def uplift_events(data: xr.Dataset, after: float = 0.1) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row for each: bearing, begin [s], duration [s], gap [m], landing_force [N] (NaN if the run
-        ends in the air), and True if a rim of the bearing was pressed at most `after` before the
-        lift-off.
+        ends in the air). The last column is True if a rim of the bearing was pressed at most
+        `after` before the lift-off.
 
     Raises
     ------

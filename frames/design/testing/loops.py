@@ -157,8 +157,8 @@ def loop_properties(test: PrototypeTest) -> pd.DataFrame:
     Notes
     -----
     A half cycle extends over more than a fifth of the largest displacement. Slopes are fitted by
-    least squares over 0.1 to 0.9 of the half cycle's displacement from zero to its end, so that
-    noise and the standstill at the end do not decide. The force at an end is that of a line through
+    least squares over 0.1 to 0.9 of the half cycle's displacement from zero to its end. So noise
+    and the standstill at the end do not decide. The force at an end is that of a line through
     the last fifth on loading.
 
     Examples

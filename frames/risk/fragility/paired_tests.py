@@ -50,8 +50,8 @@ def paired_tests(
     -------
     pandas.DataFrame
         A row a measure, pair and scale: "measure", "own", "over", "scale", "records" (known of
-        both), "more" and "less" (records in which "own" alone exceeds, or has the larger, or
-        smaller, demand), "p", "q" (p adjusted for its family) and "verdict" on "own": "better" or
+        both). "more" and "less": records in which "own" alone exceeds, or has the larger, or
+        smaller, demand. "p", "q" (p adjusted for its family) and "verdict" on "own": "better" or
         "worse" if q is at most `rate`, else "not told apart", or "too few differ".
 
     Raises
