@@ -99,7 +99,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     found = put_pulses(tmp_path_factory.mktemp("compare"))
     (found / "rims.toml").write_text(FILE)
     with warnings.catch_warnings(action="ignore", category=AnalysisWarning):  # failures, on purpose
-        done = run(app, ["campaign", str(found / "rims.toml")])
+        done = run(app, ["campaign", "--no-figures", str(found / "rims.toml")])
     assert done.exit_code == 0, done.output
     return found
 
@@ -565,7 +565,7 @@ def test_losses_are_those_of_numpy_and_scipy(folder: Path, data: xr.Dataset) -> 
     several = LOSS.replace("hazard =", "[loss.hazards]\nhere =") + f"rare = {points}\n"
     (folder / "loss.toml").write_text(FILE + several)
     with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
-        done = run(app, ["campaign", str(folder / "loss.toml"), *store])
+        done = run(app, ["campaign", "--no-figures", str(folder / "loss.toml"), *store])
     assert done.exit_code == 0, done.output
     both = pd.read_csv(page.with_name("campaign-annual_loss.csv")).set_index("structure")
     of = {name: table.drop(columns="hazard") for name, table in both.groupby("hazard")}

@@ -61,11 +61,10 @@ def resampled(count: int, fit: Fit, size: int, resamples: int, seed: int) -> Flo
     require_type("resamples", resamples, int, "a whole number")
     require_positive("resamples", resamples, error=FragilityError)
     rng = np.random.default_rng(seed)
-    found = np.full((resamples, size), np.nan)
-    for row in found:
-        again = fit(rng.multinomial(count, np.full(count, 1.0 / count)).astype(np.float64))
-        if again is not None:
-            row[:] = again
+    drawn = rng.multinomial(count, np.full(count, 1.0 / count), resamples).astype(np.float64)
+    unlike, of = np.unique(drawn, axis=0, return_inverse=True)  # few records are soon drawn again
+    fitted = [fit(weights) for weights in unlike]
+    found = np.array([np.full(size, np.nan) if one is None else one for one in fitted])[of.ravel()]
     fits = int(np.isfinite(found).all(axis=1).sum())
     if fits < LEAST_FITS * resamples:
         msg = f"{fits} of {resamples} resamples allow a fit: run more records or intensities"
