@@ -22,6 +22,18 @@ for options in given["bearings"]:
 """
 """Forces and tangents of bearings along a path."""
 
+DEVICE = {
+    "radius": (0.75, 1.1),
+    "slider_height": 0.11,
+    "slider_radius": 0.08,
+    "axial_stiffness": 1e8,
+    "rim_stiffness": 2e7,
+    "slip_capacity": 0.08,
+    "rim_overrun": 0.05,
+    "friction": [(0.07, 0.03, 12.0), (0.09, 0.05, 6.0)],
+}
+"""Numbers that the bearings of both elements share."""
+
 
 def both_ways(script: str, **given: Any) -> tuple[Any, Any]:
     """Return `out` of a script that is `given` values: compiled here, and as plain Python."""

@@ -169,6 +169,17 @@ BOUNDS = "[bounds]\nfriction = [0.8, 1.3]\n"
 MOTIONS = '[motions]\nfolder = "motions"\n'
 
 
+def solve_linear(ops: Any, system: str = "BandGeneral", numberer: str = "Plain") -> None:
+    """Analyse the loads on OpenSees' model in one linear static step."""
+    ops.system(system)
+    ops.numberer(numberer)
+    ops.constraints("Plain")
+    ops.integrator("LoadControl", 1)
+    ops.algorithm("Linear")
+    ops.analysis("Static")
+    assert ops.analyze(1) == 0
+
+
 def project_head(name: str, code: str = "NCh2745") -> str:
     """Return the first lines of a project's file."""
     return f'[project]\nname = "{name}"\ncode = "{code}"\n'

@@ -16,23 +16,12 @@ import pytest
 from typer.main import get_group
 
 from frames.command.app import app
+from tests.unit.test_exports import PACKAGES
 
 pytest.importorskip("sphinx_gallery")
 pytestmark = pytest.mark.nightly  # half a minute; links of sources: test_generated.py
 
 ROOT = Path(__file__).parents[2]
-MODULES = (
-    "lir_element",
-    "lir_element.opensees",
-    "frames",
-    "frames.laws",
-    "frames.plots",
-    "frames.viewer",
-    "frames.design",
-    "frames.design.plots",
-    "frames.risk",
-    "frames.risk.plots",
-)
 ELSEWHERE = {"frames": {"AnalysisInterrupted"}}
 """Names of `lir_element` that `frames` hands on."""
 
@@ -119,7 +108,7 @@ def test_all_documents_are_pages(site: Path) -> None:
         assert (site / source.relative_to(ROOT)).with_suffix(".html").is_file(), source
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", PACKAGES)
 def test_every_public_name_has_an_entry(site: Path, module: str) -> None:
     packed = (site / "objects.inv").read_bytes().split(b"\n", 4)[4]
     entries = {line.split()[0] for line in zlib.decompress(packed).decode().splitlines()}
@@ -127,7 +116,7 @@ def test_every_public_name_has_an_entry(site: Path, module: str) -> None:
     assert {f"{module}.{name}" for name in names} <= entries
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", PACKAGES)
 def test_every_public_class_and_function_has_a_page(site: Path, module: str) -> None:
     package = importlib.import_module(module)
     names = set(package.__all__) - ELSEWHERE.get(module, set())

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import Frame, gravity, modes
-from tests.scenes import small_bearing
+from tests.scenes import small_bearing, solve_linear
 
 pytest.importorskip("openseespy")
 
@@ -59,16 +59,7 @@ def reactions_under_weight(ops, places, corners):
             weight[node] += 0.25 * thickness * SIDE**2 * 2500.0 * G
     for node, force in weight.items():
         ops.load(node, 0.0, 0.0, -force, 0.0, 0.0, 0.0)
-    for command, *options in (
-        ("system", "BandGeneral"),
-        ("numberer", "RCM"),
-        ("constraints", "Plain"),
-        ("integrator", "LoadControl", 1),
-        ("algorithm", "Linear"),
-        ("analysis", "Static"),
-    ):
-        getattr(ops, command)(*options)
-    assert ops.analyze(1) == 0
+    solve_linear(ops, numberer="RCM")
     ops.reactions()
     return np.array([ops.nodeReaction(tag)[2] for tag in corners])
 

@@ -19,7 +19,7 @@ from scipy.spatial.transform import Rotation
 from lir_element import AnalysisError, CoulombFriction, Element, LIRBearing, RunStatus
 from lir_element.device.sliders import slider_record
 from lir_element.layout import SEARCH, STATE_BY_NAME
-from tests.plain import forces_both_ways
+from tests.plain import DEVICE, forces_both_ways
 from tests.properties.conftest import differences
 from tests.properties.conftest import walk as along
 
@@ -809,17 +809,7 @@ def test_twist_under_load(sign: float, weak: int) -> None:
 def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
     u, time = lab.smooth_path(lab.make("coulomb"), 81, 120)
     steps = slice(0, 3)
-    common = {
-        "radius": (0.75, 1.1),
-        "slider_height": 0.11,
-        "slider_radius": 0.08,
-        "rims": (0.005, 0.009),
-        "axial_stiffness": 1e8,
-        "rim_stiffness": 2e7,
-        "slip_capacity": 0.08,
-        "rim_overrun": 0.05,
-        "friction": [(0.07, 0.03, 12.0), (0.09, 0.05, 6.0)],
-    }
+    common = DEVICE | {"rims": (0.005, 0.009)}
     bearings = [
         common | {"interface_friction": 0.15, "contact_points": 5},
         common | {"interface_friction": 0.15, "friction_law": "bouc-wen", "contact_points": 4},

@@ -15,7 +15,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
 
 from lir_element import AnalysisError, CoulombFriction, Element, LIRBearing, VelocityFriction
-from tests.plain import forces_both_ways
+from tests.plain import DEVICE, forces_both_ways
 from tests.properties.conftest import differences
 
 STILL = np.zeros(12)
@@ -1072,17 +1072,7 @@ def test_rim_is_met_radially_at_its_displacement(sign: float, lab: SimpleNamespa
 
 def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
     u, time = lab.smooth_path(lab.make("coulomb"), 81, 45)
-    common = {
-        "radius": (0.75, 1.1),
-        "slider_height": 0.11,
-        "slider_radius": 0.08,
-        "rims": (0.07, 0.11),
-        "axial_stiffness": 1e8,
-        "rim_stiffness": 2e7,
-        "slip_capacity": 0.08,
-        "rim_overrun": 0.05,
-        "friction": [(0.07, 0.03, 12.0), (0.09, 0.05, 6.0)],
-    }
+    common = DEVICE | {"rims": (0.07, 0.11)}
     bearings = [
         common | {"interface_friction": 0.15},
         common | {"interface_friction": 0.15, "friction_law": "bouc-wen"},

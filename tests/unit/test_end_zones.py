@@ -19,6 +19,7 @@ from frames.assembly.members import arms_geometric_stiffness
 from frames.plots.model_geometry import member_lines
 from tests.refusals import refused
 from tests.scenes import SECTION as PLAIN
+from tests.scenes import solve_linear
 
 SHEAR = replace(PLAIN, shear_area_y=5e-3, shear_area_z=4e-3)
 STIFF = replace(PLAIN, area=1e2, inertia_y=1e2, inertia_z=1e2, torsion_constant=1e2)
@@ -169,16 +170,7 @@ def test_as_opensees_joint_offsets():
             ops.timeSeries("Linear", 1)
             ops.pattern("Plain", 1, 1)
             ops.load(built.nodes["b"], *(1.0 if k == dof else 0.0 for k in range(6)))
-            for command, *options in (
-                ("system", "FullGeneral"),
-                ("numberer", "Plain"),
-                ("constraints", "Plain"),
-                ("integrator", "LoadControl", 1),
-                ("algorithm", "Linear"),
-                ("analysis", "Static"),
-            ):
-                getattr(ops, command)(*options)
-            assert ops.analyze(1) == 0
+            solve_linear(ops, system="FullGeneral")
             flexibility[:, dof] = ops.nodeDisp(built.nodes["b"])
     assert_allclose(np.linalg.inv(flexibility), ours, rtol=0.0, atol=1e-9 * np.abs(ours).max())
 

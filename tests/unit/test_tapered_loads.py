@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError
 from frames.assembly.assemble import assemble, member_axial_forces, member_end_forces
-from tests.scenes import SECTION
+from tests.scenes import SECTION, solve_linear
 
 LONG = 4.0
 SHEAR = replace(SECTION, inertia_y=8e-4, inertia_z=3e-4, shear_area_y=3e-3, shear_area_z=2e-3)
@@ -139,16 +139,7 @@ def test_a_part_as_opensees_has_it():
         ops.pattern("Plain", 1, 1)
         parts = (-1e3, 0.0, 0.25, 0.75, -3e3, 0.0)
         ops.eleLoad("-ele", 1, "-type", "-beamUniform", *parts)
-        for command, *options in (
-            ("system", "BandGeneral"),
-            ("numberer", "Plain"),
-            ("constraints", "Plain"),
-            ("integrator", "LoadControl", 1),
-            ("algorithm", "Linear"),
-            ("analysis", "Static"),
-        ):
-            getattr(ops, command)(*options)
-        assert ops.analyze(1) == 0
+        solve_linear(ops)
         theirs = ops.eleResponse(1, "localForce")
     frame = beam(releases={"j": ("My", "Mz")})
     frame.add_tapered_load("m0", (0.0, 0.0, -1e3), (0.0, 0.0, -3e3), 1.0, 3.0)
