@@ -141,9 +141,9 @@ def _model(project, head, rows, tally):
     tally.printed(
         "tables of the report", "pendulum", found["period on the bearings, sliding"], period
     )
-    held = [float(row["period, held [s]"]) for row in project.table("modes")[:3]]
-    for text, value in zip(found["periods, fixed base"].split(","), held, strict=False):
-        tally.printed("tables of the report", "held", text.strip(), value)
+    fixed = [float(row["period, fixed base [s]"]) for row in project.table("modes")[:3]]
+    for text, value in zip(found["periods, fixed base"].split(","), fixed, strict=False):
+        tally.printed("tables of the report", "fixed base", text.strip(), value)
 
 
 def _loads(project, head, rows, tally):

@@ -77,7 +77,7 @@ CHANGED = {  # file, what is changed, to what, in which category it is seen, and
         ("checks.csv", r",FAILS$", ",ok", "ratios and verdicts", "verdict"),
         (
             "report.html",
-            r"(<tr><td>lower</td><td>)(\d)",
+            r"(<tr><td[^>]*>lower</td><td[^>]*>)(\d)",
             r"\g<1>9\g<2>",
             "tables of the report",
             "linear lower",

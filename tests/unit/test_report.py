@@ -295,11 +295,11 @@ def test_masses_of_modes_along_both_axes() -> None:
     bearing = wide_bearing(capacity=0.18, interface_friction=0.15)
     frame = moment_frame((3, 1), 2, bearing=bearing)
     table = mode_table(SimpleNamespace(frame=frame, equivalent=SimpleNamespace(bounds={})))
-    for title in ("sliding", "held"):
+    for title in ("sliding", "fixed base"):
         x, y = (table[f"mass {axis}, {title}"][:-1] for axis in "xy")
-        assert min(x.sum(), y.sum()) > 0.6  # held: the mass of the base is not in it
+        assert min(x.sum(), y.sum()) > 0.6  # fixed base: its mass is not in it
         assert (x * y).max() < 1e-3
-        found = modes(frame, 6, bearings="fixed" if title == "held" else title)
+        found = modes(frame, 6, bearings="fixed" if title == "fixed base" else title)
         assert x.tolist() == np.round(found.mass_ratios[:, 0], 4).tolist()
         assert y.tolist() == np.round(found.mass_ratios[:, 1], 4).tolist()
         assert table.loc["sum", f"mass x, {title}"] == pytest.approx(x.sum(), abs=1e-3)
@@ -374,7 +374,8 @@ def test_what_governs_are_the_highest_ratios(results: Path, page: str) -> None:
     assert aside.sum() >= 5
     aside |= checks["verdict"] == "raised"  # least values, which demands are raised to
     highest = checks[~aside].groupby(["title", "level"])["ratio"].max().nlargest(10)
-    part = section(page, "summary")
+    part, narrow = section(page, "summary").split('<figure class="bars start">')
+    assert narrow.count('class="name"') == len(highest)  # the same for a telephone
     bars = re.findall(r'class="name">(.*?)</text>', part)
     assert [unescape(bar) for bar in bars] == [title for title, _ in highest.index]
     ratios = re.findall(r'<text [^>]*class="ratio">([^<]*)</text>', part)[:-1]

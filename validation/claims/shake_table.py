@@ -78,7 +78,7 @@ def bearing(**changes: Any) -> LIRBearing:
 def structure(device: LIRBearing) -> Frame:
     """Return two stiff storeys on a square of four bearings, guided along x as on the table."""
     mass = WEIGHT / STANDARD_GRAVITY / 3.0
-    # equal masses m and storeys k on a held base: first circular frequency 0.618 sqrt(k / m)
+    # equal masses m and storeys k on a fixed base: first circular frequency 0.618 sqrt(k / m)
     stiffness = mass * (2.0 * math.pi / STRUCTURE_PERIOD / 0.618034) ** 2
     frame = shear_building(
         device,

@@ -90,7 +90,7 @@ def of_building(results: Path, inputs: ProjectInputs) -> dict[str, Any]:
         "code": inputs.code().name,
         "device_level": inputs.file.analysis.level,
         "weight": float(bearings["average load [N]"].sum()),
-        "fixed": float(pd.read_csv(results / "modes.csv")["period, held [s]"].max()),
+        "fixed": float(pd.read_csv(results / "modes.csv")["period, fixed base [s]"].max()),
         "runs": {k: v["runs"] for k, v in run["runs"].items()},
         "moved": {k: v["runs"] for k, v in run["moved"].items()},
         "levels": levels,

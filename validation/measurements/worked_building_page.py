@@ -10,7 +10,7 @@ from frames.plots.plot_style import PALETTE, SMALL, caption, grid_of, new_figure
 from validation.page import render, table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -77,6 +77,17 @@ def code_row(code: str, known: Mapping[str, Any]) -> str:
         number(demands["storey drift ratio"], 1e2),
     ]
     return table((), [cells]).splitlines()[-1]
+
+
+def which_fail(checks: Sequence[str]) -> str:
+    """Return the checks that fail on their value, and the titles of those without a valid one."""
+    void = [each.partition(", no valid value: ") for each in checks if ", no valid value: " in each]
+    others = [each for each in checks if ", no valid value: " not in each]
+    said = "; ".join(each for each in others if not each.startswith("runs that failed"))
+    if not void:
+        return said or "-"
+    titles = "; ".join(dict.fromkeys(head.partition(" (")[0] for head, _, _ in void))
+    return f"{said}. Without a valid value, because {void[0][2]}: {titles}"
 
 
 def page(found: Mapping[str, Any]) -> str:

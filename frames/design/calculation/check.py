@@ -285,6 +285,11 @@ class Checks(Sequence[Check]):
         return Checks(check for check in self if check.verdict in {"FAILS", "no value"})
 
     @property
+    def by_value(self) -> Checks:
+        """The checks that fail on their value. A number of failed runs is no value of the design."""
+        return Checks(c for c in self if c.verdict == "FAILS" and c.symbol != "n_failed")
+
+    @property
     def without_value(self) -> Checks:
         """The checks that have no valid value, because runs failed."""
         return Checks(check for check in self if check.verdict == "no value")
@@ -322,9 +327,10 @@ class Checks(Sequence[Check]):
         more += f", {less} below the code's least value: forces are raised to it" if less else ""
         free = sum(check.verdict == "no limit" for check in self)
         more += f", {free} without a limit" if free else ""
-        void = len(self.without_value)
+        failed, void = len(self.by_value), len(self.without_value)
+        more = f", too many runs failed{more}" if len(self.failed) > failed + void else more
         more = f", {void} without a valid value{more}" if void else more
-        return f"{len(self)} checks, {len(self.failed) - void} failed{more}"
+        return f"{len(self)} checks, {failed} failed{more}"
 
     @property
     def governing(self) -> Check:

@@ -231,7 +231,7 @@ class Verdict(NamedTuple):
 def verdict_of(run: ProjectRun) -> Verdict:
     """Return the verdict of a run's checks."""
     void = run.checks.without_value
-    by_value = [c for c in run.checks.failed if not c.void and c.symbol != "n_failed"]
+    by_value = run.checks.by_value
     beyond, within = void.beyond_and_within
     return Verdict(
         by_value=len(by_value),

@@ -23,10 +23,10 @@ _COUNT = 6
 def mode_table(run: ProjectRun) -> pd.DataFrame:
     """Return periods and shares of mass of the first modes, and the sums of these shares.
 
-    On sliding bearings, held at the base, and on the effective stiffness at each bound; shares are
+    On sliding bearings, on a fixed base, and on the effective stiffness at each bound; shares are
     of the mass and of its inertia about the vertical through its centre.
     """
-    ways: dict[str, Any] = {"sliding": "sliding", "held": "fixed"}
+    ways: dict[str, Any] = {"sliding": "sliding", "fixed base": "fixed"}
     for bound in run.equivalent.bounds:
         ways[f"k_eff at {bound}"] = _stiffness_at(run, bound)
     columns, sums = {}, {}
