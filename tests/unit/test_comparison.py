@@ -90,9 +90,7 @@ def test_the_page_shows_the_numbers_of_the_tables(page: tuple[str, Any, Path]) -
     for name, unit, factor in (("isolator displacement", "mm", 1e3), ("base shear", "kN", 1e-3)):
         ours, plain = (factor * float(table[column][name]) for column in table.columns[1:3])
         cell = "<td[^>]*>([^<]+)</td>"
-        row = re.search(
-            rf"<td[^>]*>{name}</td><td[^>]*>{unit}</td>{2 * cell}", text
-        )
+        row = re.search(rf"<td[^>]*>{name}</td><td[^>]*>{unit}</td>{2 * cell}", text)
         assert row is not None
         assert [float(cell) for cell in row.groups()] == pytest.approx([ours, plain], rel=1e-3)
     assert text.count("<img src=") == 5  # by motion, loops, storeys, both bearings

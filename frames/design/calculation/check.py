@@ -286,7 +286,7 @@ class Checks(Sequence[Check]):
 
     @property
     def by_value(self) -> Checks:
-        """The checks that fail on their value. A number of failed runs is no value of the design."""
+        """The checks that fail on their value; numbers of failed runs are not among them."""
         return Checks(c for c in self if c.verdict == "FAILS" and c.symbol != "n_failed")
 
     @property
