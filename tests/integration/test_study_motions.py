@@ -11,6 +11,7 @@ from frames.risk.campaign.devices import device_ratios, moat_of
 from frames.risk.campaign.file import campaign_file, comparison_in, read_campaign
 from validation.study import motions, near_fault
 from validation.study.near_fault import LOOKS, PAIRS, PLAN
+from validation.study.runner import tried
 
 HERE = Path(near_fault.__file__).parent
 
@@ -70,12 +71,13 @@ def test_a_cell_of_the_map_is_for_the_device_that_stands_or_is_lower():
 
 def test_motions_have_the_names_that_the_numbers_look_for():
     turned, same = (
-        [*read_campaign(HERE / f"motions-{name}.toml").motions] for name in ("turned", "same")
+        [*read_campaign(tried(campaign_file(HERE / f"motions-{name}.toml"), 2)).motions]
+        for name in ("turned", "same")
     )
-    assert len(turned) == len(same) == 3 * 22
+    assert len(turned) == len(same) == 3 * 2
     for angle in motions.ANGLES[1:]:
-        assert sum(name.endswith(f", {angle} degrees") for name in turned) == 22
-    assert sum(", then " in name for name in same) == 2 * 22
+        assert sum(name.endswith(f", {angle} degrees") for name in turned) == 2
+    assert sum(", then " in name for name in same) == 2 * 2
     assert campaign_file(HERE / "motions-vertical.toml").motions.vertical == ("with", "without")
 
 

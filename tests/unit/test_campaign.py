@@ -683,8 +683,10 @@ print(json.dumps([len(table), table["radius"].tolist(), peak.tolist()]))
     for words in (
         *("lir campaign small.toml", open_campaign(store).digest(), "BSD-3-Clause"),
         *("| radius | m | parameter |", "| bearing displacement | m |", "No ground motion"),
+        "| minimum axial force | N | smallest of the run |",
     ):
         assert words in told
+    assert "other files" not in told  # its page is not written
     assert "Redistribution and use" in (tmp_path / "read/LICENSE").read_text()
     shutil.copytree(store, tmp_path / "study/loss/all")
     whole.main(["loss", "after", "--store", str(tmp_path / "study"), "--archive", str(tmp_path)])

@@ -13,12 +13,12 @@ from __future__ import annotations
 
 import argparse
 import tempfile
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from frames.risk import archive_campaign
 from validation.page import FOLDER
+from validation.study import summary
 from validation.study.part import workers_of
 from validation.study.runner import Work, files_of, name_of, run, write
 
@@ -68,11 +68,8 @@ def main(given: Sequence[str] | None = None) -> None:
     for part in options.parts or PARTS:
         if files_of(part):
             _perform(part, options)
-            continue
-        own = ["--workers", options.workers]
-        own += ["--store", str(options.store / part)] if options.store else []
-        own += ["--again"] if options.again else []
-        import_module(f"validation.study.{part}").main(own)
+        else:
+            summary.main(["--again"] * options.again)
 
 
 def archived(part: str, store: Path, to: Path) -> None:

@@ -12,6 +12,7 @@ from frames.plots import plot_style as ps
 from frames.risk import Device, LimitState, compare_fragility, paired_tests
 from frames.risk.campaign.comparison import COLLAPSE, dish_diameter
 from frames.risk.campaign.devices import highest_ratio, moat_of
+from frames.risk.campaign.tables import CONFIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
 
     Own = Mapping[str, Any]
 
-CONFIDENCE = 0.9
 LEVELS = ("contact", "pendulum")
 PLANS = ("569 mm", "689 mm", "1009 mm")
 REFERENCE = "689 mm"
@@ -235,10 +235,14 @@ def of_pair(own: Own, level: str, terms: str, other: str, limit: str = COLLAPSE)
     return found
 
 
+def ratio_of(pair: Mapping[str, Any], none: str = "-") -> str:
+    """Return ratio of medians with its interval, as text."""
+    return "{:.2f} ({:.2f} to {:.2f})".format(*pair["ratio"]) if pair["ratio"] else none
+
+
 def said(pair: Mapping[str, Any]) -> str:
-    """Return ratio of medians with its interval, discordant records and verdict, as text."""
-    ratio = pair["ratio"]
-    text = "no ratio" if ratio is None else "{:.2f} ({:.2f} to {:.2f})".format(*ratio)
+    """Return ratio of medians, discordant records and verdict, as text."""
+    text = ratio_of(pair, "no ratio")
     return f"{text}; {pair['less']} to {pair['more']} records, {pair['verdict']}"
 
 
@@ -250,8 +254,10 @@ def figures(campaigns: Mapping[str, Any], own: Own) -> dict[str, Figure]:
     margins = {level: campaigns[level]["tables"]["margins"].set_index("device") for level in LEVELS}
     considered = campaigns[LEVELS[0]]["considered"]
     found = {terms: terms_figure(own, terms, considered) for terms in TERMS}
-    found["margins"] = margins_figure(own, margins)
-    found["price"] = price_figure(own, margins[LEVELS[0]])
+    cells = [(margins[level], "plan", PLANS, f"level {level}") for level in LEVELS]
+    found["margins"] = margins_figure(own, cells)
+    sizes = [(margins[LEVELS[0]], key, (), "") for key in ("cost", "moat")]
+    found["price"] = margins_figure(own, sizes)
     if "search" in campaigns:
         found["search"] = search_figure(campaigns["search"]["tables"]["search"])
     return found
@@ -306,30 +312,16 @@ def _margin_line(
     panel.errorbar(x, value, yerr=ends, marker=MARKERS[k], markersize=3.5, elinewidth=0.6, **look)
 
 
-def margins_figure(own: Own, margins: Mapping[str, Any]) -> Figure:
-    """Return collapse margins over the plan, a panel a level of fidelity."""
-    figure = ps.new_figure(3.2)
-    (panels,) = ps.grid_of(figure, 1, len(LEVELS), share_y=True)
-    for panel, level in zip(panels, LEVELS, strict=True):
-        for k, end in enumerate(("", *(f", {rims}" for rims in RIMS))):
-            names = [f"{'DCFP' if end else 'LIR-DCFP'} {plan}{end}" for plan in PLANS]
-            at = [1e3 * own["devices"][name]["plan"] + 4.0 * (k - 1.5) for name in names]
-            _margin_line(panel, margins[level], names, at, k)
-        ps.caption(panel, title=f"level {level}", x="plan [mm]", y="collapse margin [-]")
-    legend(figure)
-    return figure
-
-
 AXES = {"plan": "plan [mm]", "moat": "moat [mm]", "cost": "cost of nine bearings [t of steel]"}
 """What margins are drawn over, by the name of a size."""
 
 
-def margins_over(panel: Axes, own: Own, margins: Any, key: str) -> None:
-    """Draw collapse margins of all devices over a size of `AXES`, a line a kind of rims."""
+def margins_over(panel: Axes, own: Own, margins: Any, key: str, labels: Sequence[str] = ()) -> None:
+    """Draw collapse margins of devices (DCFPs of `labels`; none: all) over a size of `AXES`."""
     for k, end in enumerate(("", *(f", {rims}" for rims in RIMS))):
-        start = "DCFP " if end else "LIR-DCFP "
+        start, kept = ("DCFP ", labels) if end else ("LIR-DCFP ", PLANS)
         names = [n for n in own["devices"] if n.startswith(start) and n.endswith(end)]
-        names = [n for n in names if end or n.removeprefix(start) in PLANS]
+        names = [n for n in names if not kept or n[len(start) : len(n) - len(end)] in kept]
         sizes = {n: own["devices"][n][key] for n in names}
         at = {
             n: 1e-3 * sum(v.values()) if key == "cost" else 1e3 * v + 4.0 * (k - 1.5)
@@ -340,12 +332,14 @@ def margins_over(panel: Axes, own: Own, margins: Any, key: str) -> None:
     ps.caption(panel, x=AXES[key], y="collapse margin [-]")
 
 
-def price_figure(own: Own, margins: Any) -> Figure:
-    """Return collapse margins over the cost of nine bearings and over the moat."""
+def margins_figure(own: Own, cells: Sequence[tuple[Any, str, Sequence[str], str]]) -> Figure:
+    """Return collapse margins, a panel of each: margins, size of `AXES`, labels, title."""
     figure = ps.new_figure(3.2)
-    (panels,) = ps.grid_of(figure, 1, 2, share_y=True)
-    for panel, key in zip(panels, ("cost", "moat"), strict=True):
-        margins_over(panel, own, margins, key)
+    (panels,) = ps.grid_of(figure, 1, len(cells), share_y=True)
+    for panel, (margins, key, labels, title) in zip(panels, cells, strict=True):
+        margins_over(panel, own, margins, key, labels)
+        if title:
+            ps.caption(panel, title=title)
     legend(figure)
     return figure
 

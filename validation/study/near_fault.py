@@ -8,14 +8,16 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
+from frames import time_histories
 from frames.design.project.inputs import bearing_of
 from frames.plots import plot_style as ps
 from frames.risk.campaign.comparison import dish_diameter
-from frames.risk.campaign.devices import device_ratios, moat_of
+from frames.risk.campaign.devices import highest_ratio, moat_of
+from frames.risk.campaign.ductility import DUCTILITY, ductility
 from frames.risk.fragility.runs import COMPLETE, FAILURE
 from lir_element.units import STANDARD_GRAVITY
 from validation.page import number, table
-from validation.study.steps import at_two_steps, steps_said  # noqa: F401  (of the template)
+from validation.study.part import quietly
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -85,6 +87,15 @@ PAIRS = {
 HALVED = tuple((name, number, 0.8) for number in (3, 6) for name in PAIRS["plan 689 mm"])
 """Runs at half the step, too: device, number of the pulse, peak velocity [m/s]."""
 
+COMPARED = {
+    DUCTILITY: "ductility",
+    QUANTITIES["drift"]: "storey drift",
+    QUANTITIES["acceleration"]: "floor acceleration",
+    QUANTITIES["displacement"]: "bearing displacement",
+    "interface slip": "interface slip",
+}
+"""Demands of these runs, and their text."""
+
 PLAN, MOAT = "plan 689 mm", "moat 517 mm"
 """The pairs of the map."""
 
@@ -116,9 +127,43 @@ def numbers(every: Mapping[str, Any]) -> dict[str, Any]:
             name: sizes_of([link.bearing for link in frame.bearings.values()])
             for name, frame in frames.items()
         },
-        "halved": at_two_steps(tables, HALVED),
-        "ratio": max(check.ratio for check in device_ratios(frames[lir(517)]).values()),
+        "halved": at_two_steps(tables),
+        "ratio": highest_ratio(frames[lir(517)]),
     }
+
+
+def at_two_steps(tables: Any) -> list[dict[str, Any]]:
+    """Return demands of runs at the step of the campaign and at half."""
+    analysis, rows = tables.file.analysis, []
+    motions = list(tables.campaign.motions.items())
+    for model, which, scale in HALVED:
+        name, motion = motions[which % len(motions)]
+        frame, runs = tables.frames[model], []
+        for dt in (analysis.dt, 0.5 * analysis.dt):
+            options = {"scales": [scale], "dt": dt, "level": analysis.level}
+            with quietly():
+                data = time_histories({model: frame}, {name: motion}, **options)
+            peaks = data["peak"].isel(run=0).to_series().to_dict()
+            peaks[DUCTILITY] = float(ductility(data, frame)[0])
+            values = {q: float(peaks[q]) if np.isfinite(peaks[q]) else None for q in COMPARED}
+            runs.append({"status": str(data["status"].item())} | values)
+        rows.append({"device": model, "motion": name, "im": scale, "runs": runs})
+    return rows
+
+
+def steps_said(rows: Sequence[dict[str, Any]]) -> str:
+    """Return how far runs at two steps are apart."""
+    pairs, words = [row["runs"] for row in rows], []
+    apart = [row["device"] for row in rows if len({run["status"] for run in row["runs"]}) > 1]
+    for quantity, text in COMPARED.items():
+        far = [
+            abs(whole[quantity] / half[quantity] - 1.0)
+            for whole, half in pairs
+            if whole["status"] == half["status"] == "ok" and (half[quantity] or 0.0) > 1e-3
+        ]
+        words += [f"{100.0 * max(far):.1f} % of {text}"] if far else []
+    alike = f"ends differ in {'; '.join(apart)}" if apart else "all end alike"
+    return f"{alike}; demands of complete runs differ by at most {', '.join(words) or 'nothing'}."
 
 
 def sizes_of(bearings: Sequence[LIRBearing]) -> list[float]:

@@ -4,6 +4,7 @@
 
 ARCHIVES is the folder of `python -m validation.study --archive ARCHIVES --store STORE`. Of two devices
 of each campaign: runs that exceed a limit state, failed bearings, medians; their ratio, the exact p.
+How far they are from the page's is written to its tables/recomputed.csv.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ import numpy as np
 import zarr
 from scipy import optimize, stats
 
+TABLE = "tables/recomputed.csv"
 FAILED, DRIFT = "bearing failure", ("storey drift 2 %", "storey drift, mean", 0.02)
 LIMITS = {"study_buildings": DRIFT, "study_near_fault": DRIFT}
 """Limit state, quantity and limit of parts that have other members, or another collapse."""
@@ -80,6 +82,7 @@ def numbers(path: Path, part: str, start: str) -> list[tuple[str, str, float]]:
     row, found = table_of(f"{start}-ratios.csv", limit_state=limit)[0], []
     failed = (runs["outcome"] == FAILED) | (runs["status"] == "bearing_lost")
     medians, scores = [], []
+    several = len({*runs["scale"]}) > 1  # one intensity, apart by rounding, has no median
     for name in (row["own"], row["over"]):
         own = (runs["model"] == name) & ~np.isnan(over)
         of = [runs[key][own] for key in ("motion", "scale", "parameter_set") if key in runs]
@@ -94,16 +97,18 @@ def numbers(path: Path, part: str, start: str) -> list[tuple[str, str, float]]:
                 float(failed[runs["model"] == name].sum()),
             )
         )
-        if value := next((v for key, v in curve.items() if key.startswith("median [")), ""):
+        value = next((v for key, v in curve.items() if key.startswith("median [")), "")
+        if value and several:
             medians.append(median(runs["scale"][own].astype(float), over[own]))
             found.append((f"{name}, median", value, medians[-1]))
-    if row["ratio [-]"]:
+    if len(medians) == 2:
         found.append(("ratio of medians", row["ratio [-]"], medians[0] / medians[1]))
     return [*found, ("exact p", row["p"], exact(*scores))]
 
 
 def main(archives: str, pages: str = "docs/validation") -> None:
-    """Print numbers of all archives, as on the page and recomputed."""
+    """Print numbers of all archives, as on the page and recomputed; write a table of how far."""
+    rows = []
     for path in sorted(Path(archives).glob("*.zip")):
         with tempfile.TemporaryDirectory() as place:
             zipfile.ZipFile(path).extractall(place)
@@ -111,9 +116,14 @@ def main(archives: str, pages: str = "docs/validation") -> None:
                 start = f"{pages}/tables/{path.stem}-{found.parent.name}"
                 if Path(f"{start}-ratios.csv").is_file():
                     print(f"{path.stem}, {found.parent.name}: page, recomputed, difference")
+                    far = []
                     for text, page, again in numbers(found, path.stem, start):
-                        known = float(page)
-                        print(f"  {text}: {known:.6g}, {again:.6g}, {again - known:.1g}")
+                        far.append(abs(again - float(page)) / (abs(float(page)) or 1.0))
+                        print(f"  {text}: {float(page):.6g}, {again:.6g}, {far[-1]:.1g}")
+                    rows.append([path.stem, found.parent.name, len(far), f"{max(far):.1g}"])
+    with Path(f"{pages}/{TABLE}").open("w", encoding="utf-8", newline="") as file:
+        head = ["page", "campaign", "numbers", "largest relative difference"]
+        csv.writer(file, lineterminator="\n").writerows([head, *rows])
 
 
 if __name__ == "__main__":

@@ -31,7 +31,6 @@ from frames.risk.campaign.tables import CONFIDENCE, CampaignTables
 from validation.page import DPI, FOLDER, render
 from validation.study import shown
 from validation.study.part import client_of, made_on, performed, quietly
-from validation.study.rounded import rounded
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -46,6 +45,12 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 INFINITE = "inf"
+TRIED_SECONDS = 10.0
+"""Duration of a trial's histories [s]."""
+
+DIGITS = 5
+"""Significant digits of numbers in JSON."""
+
 PULSES = "periods", "period_ratios", "velocities", "shapes"
 """Of pulses: what a trial has few of."""
 
@@ -157,26 +162,27 @@ def own_module(part: str) -> Any:
 
 
 def tried(file: CampaignFile, few: int) -> CampaignFile:
-    """Return a campaign's file with few records and intensities at level pendulum, for a trial."""
-    analysis = file.analysis.model_copy(update={"level": "pendulum"})
-    file = file.model_copy(update={"analysis": analysis})
+    """Return a campaign's file with few short records, intensities and sets at level pendulum."""
+    short = {"level": "pendulum", "duration": TRIED_SECONDS}
+    changed: dict[str, Any] = {"analysis": file.analysis.model_copy(update=short)}
     given, bearing = file.motions, bearing_of(file.bearing)
     if given.pulses is not None:
         pulses = given.pulses.model_copy(
             update={name: _few(getattr(given.pulses, name), few) for name in PULSES}
         )
-        return file.model_copy(update={"motions": given.model_copy(update={"pulses": pulses})})
+        changed["motions"] = given.model_copy(update={"pulses": pulses})
+        return file.model_copy(update=changed)
     folder = (file.source_path or Path()).parent
     sets = [given.model_copy(update={"fema_p695": (name,)}) for name in given.fema_p695] or [given]
     read = [motions_of(each, folder, lambda: bearing.period) for each in sets]
     key = "intensities" if given.intensities else "scales"
     values = getattr(given, key)
     names = tuple(name for each in read for name in list(each)[:few])
-    less = given.model_copy(update={"only": names, key: _few(values, few)})
-    changed: dict[str, Any] = {"motions": less}
+    changed["motions"] = given.model_copy(update={"only": names, key: _few(values, few)})
     if file.search is not None:
-        shorter = {"points": few + 3, "trials": 1}
-        changed["search"] = file.search.model_copy(update=shorter)
+        changed["search"] = file.search.model_copy(update={"points": few + 2, "trials": 0})
+    if file.sample is not None:
+        changed["sample"] = file.sample.model_copy(update={"size": 2 * few})
     return file.model_copy(update=changed)
 
 
@@ -236,6 +242,15 @@ def _kept(told: Told) -> dict[str, Any]:
     return {**told, "tables": tables}
 
 
+def rounded(value: Any) -> Any:
+    """Return nested mappings and lists with all numbers rounded to significant digits."""
+    if isinstance(value, dict):
+        return {key: rounded(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [rounded(each) for each in value]
+    return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
+
+
 def _split(table: pd.DataFrame) -> dict[str, Any]:
     # What is not known is null, and what is infinite a word, for which JSON has no number.
     found = table.astype(object).where(table.notna(), None).replace({math.inf: INFINITE})
@@ -277,7 +292,7 @@ def _start(part: str, name: str) -> str:
 def _written(part: str, every: Mapping[str, Told]) -> str:
     # How a page was made: the first sentence of each.
     cost = next(iter(every.values()))["cost"]
-    files = [f"`{path.name}`" for path in files_of(part).values()]
+    files = [f"`{path.name}`" for name, path in files_of(part).items() if name in every]
     return (
         f"Written by `python -m validation.study {part}` ({cost['date']}, {cost['machine']}); "
         f"`lir campaign` runs {', '.join(files)} of `validation/study` as well."

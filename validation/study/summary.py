@@ -18,12 +18,11 @@ from frames import Recording, peaks, time_history
 from frames.plots import plot_style as ps
 from frames.risk.campaign.file import models_in, read_campaign
 from validation.page import FOLDER, render, table
-from validation.study import device
+from validation.study import device, recompute
 from validation.study import near_fault as pulses
-from validation.study.device import LIMITS, LIR, REFERENCE, RIMS, TERMS
+from validation.study.device import LIMITS, LIR, REFERENCE, RIMS, TERMS, ratio_of
 from validation.study.part import quietly
-from validation.study.rounded import rounded, with_interval
-from validation.study.runner import HERE, name_of, told_of
+from validation.study.runner import HERE, name_of, rounded, told_of
 from validation.study.shown import rows_of, where
 
 if TYPE_CHECKING:
@@ -109,7 +108,7 @@ def verdicts(rows: Sequence[Own]) -> str:
 
 def _cell(row: Own) -> str:
     # Ratio, and records with fewer and more exceedances; bold if the exact test decides.
-    text = f"{with_interval(row['ratio'])}; {row['less']} : {row['more']}"
+    text = f"{ratio_of(row)}; {row['less']} : {row['more']}"
     return f"**{text}**" if row["verdict"] in DECIDED else text
 
 
@@ -130,18 +129,28 @@ def line_of(part: Own) -> str:
     """Return level of a part and the ratios of collapse of its LIR-DCFPs over its DCFPs."""
     told = part["campaigns"].values()
     levels = sorted({f"`{each['plan']['level of fidelity']}`" for each in told})
-    ratios = [each["tables"]["ratios"] for each in told if "ratios" in each["tables"]]
     rows = [
-        row | {"ratio": [row["ratio [-]"]]}
-        for each in ratios
-        for row in rows_of(where(each, limit_state=COLLAPSE))
+        row | {"ratio": [row["ratio [-]"]] if several and row["ratio [-]"] > 0.0 else None}
+        for each in told
+        if "ratios" in each["tables"]
+        for several in ["," in each["plan"][each["axis"]]]  # one intensity has no median
+        for row in rows_of(where(each["tables"]["ratios"], limit_state=COLLAPSE))
         if "LIR" in row["own"]
         and "LIR" not in row["over"]
-        and row["ratio [-]"] > 0.0
         and ("stop" in row["own"]) is ("stop" in row["over"])
     ]
-    said = f" Collapse: {span(rows)}, {verdicts(rows)}." if rows else ""
+    ratios = f"{span(rows)}, " if any(row["ratio"] for row in rows) else ""
+    said = f" Collapse: {ratios}{verdicts(rows)}." if rows else ""
     return f"Level {', '.join(levels)}.{said}"
+
+
+def recomputed() -> str:
+    """Return how far recomputed numbers of the campaigns are from the pages' ones."""
+    rows = recompute.table_of(FOLDER / recompute.TABLE)
+    count = sum(int(row["numbers"]) for row in rows)
+    far = 100.0 * max(float(row["largest relative difference"]) for row in rows)
+    parts = len({row["page"] for row in rows})
+    return f"{count} numbers of {parts} parts; the largest difference is {far:.1g} %"
 
 
 def page(parts: Parts, kept: Own) -> str:

@@ -24,18 +24,22 @@ _MEANT = {
     "model": "structure, with its devices",
     "parameter_set": "number of the set of parameters",
     "motion": "ground motion, by name; its digest is motion_digest in results.zarr",
-    "scale": "factor on the motion, or the intensity that it is scaled to",
+    "scale": "factor on the motion, or the intensity [m/s2, m/s] that it is scaled to",
     "outcome": "complete, bearing failure, numerical failure (nothing is known), or not built",
     "status": "how the run ended",
     "message": "why it ended",
     "doubts": "what the check of modelling assumptions marks",
     "seconds_loop": "time of computation",
+    "duration computed": "time at which the run ended",
 }
 """Columns of the table of runs that are no parameter and no result."""
 
+_KINDS = {"residual": "at the end of the run", "minimum": "smallest of the run"}
+"""Results whose names begin so; others are the largest of the run."""
+
 _README = """# {title}
 
-Time histories of structures on seismic isolators. {count} in all. {files}
+Time histories of structures on seismic isolators: {count}. {files}
 
 Written by {program}: `{command}`. {licence}
 Cite: {citation}.
@@ -50,8 +54,7 @@ _PART = """
 - `{folder}runs.csv`: a row a run. In Python: `pandas.read_csv("{folder}runs.csv")`
 - `{folder}results.zarr`: all arrays and units, by zarr or `xarray.open_zarr`
 - `{folder}plan.json`: structures, motions and options as digests and numbers
-- other files: the page of the campaign with its input, and its tables
-
+{others}
 | column of runs.csv | unit | meaning |
 | --- | --- | --- |
 {columns}
@@ -141,20 +144,28 @@ def _written(store: CampaignStore, folder: Path) -> pd.DataFrame:
         store.results().load().to_zarr(folder / "results.zarr", zarr_format=2, consolidated=True)
     table = store.to_dataframe()
     (folder / "runs.csv").write_text(csv_of(table), "utf-8")
-    for file in [store.path / PLAN, *sorted(store.path.glob("campaign*.*"))]:
+    for file in [store.path / PLAN, *_others(store)]:
         (folder / file.name).write_bytes(file.read_bytes())
     return table
+
+
+def _others(store: CampaignStore) -> list[Path]:
+    # The page of a campaign, and its tables.
+    return sorted(store.path.glob("campaign*.*"))
 
 
 def _part(name: str, folder: str, digest: str, store: CampaignStore, table: pd.DataFrame) -> str:
     units, parameters = table.attrs["units"], list(store.plan()["parameters"])
     rows = []
     for column in map(str, table.columns):
-        unit, text = units.get(column, ""), _MEANT.get(column, "largest of the run")
+        kind = _KINDS.get(column.split(" ")[0], "largest of the run")
+        unit, text = units.get(column, ""), _MEANT.get(column, kind)
         if column in parameters:
             unit, text = UNITS.get(column, ""), "parameter"
         rows.append(f"| {column} | {unit or '-'} | {text} |")
     given = {"source": table.attrs.get("source", ""), "date": table.attrs.get("date_created", "")}
+    page = "- other files: the page of the campaign with its input, and its tables\n"
+    given["others"] = page if _others(store) else ""
     columns = {"folder": folder, "columns": "\n".join(rows), "digest": digest}
     return _PART.format(name=name, runs=len(table), **given, **columns)
 

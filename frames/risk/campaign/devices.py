@@ -65,7 +65,7 @@ class Device:
         Plate diameter beyond that of the bearings, with their rim displacement around the widest
         slider for a load [m]: instead of plan, for several structures.
     rim_stiffness : float
-        Plate diameter over that of the bearings [-].
+        Stiffness of the rims over that of the bearings [-].
     rim_overrun : float, optional
         Deformation at which a rim breaks [m].
     backup : BackupSupport, optional
@@ -274,11 +274,11 @@ def device_ratios(frame: Frame, limits: DesignLimits | None = None) -> dict[str,
     own = {name: link.bearing for name, link in frame.bearings.items()}
     own = {name: each for name, each in own.items() if not each.is_dcfp}
     slip = min((each.resolved()["slip_capacity"] for each in own.values()), default=0.0)
-    found = {}
-    for name, each in own.items():
+    found: dict[LIRBearing, Check] = {}  # columns that mirror each other have equal bearings
+    for each in dict.fromkeys(own.values()):
         load = each.resolved()["design_load"]
-        found[name] = device_checks(each, (load, load), slip=slip, limits=limits).governing
-    return found
+        found[each] = device_checks(each, (load, load), slip=slip, limits=limits).governing
+    return {name: found[each] for name, each in own.items()}
 
 
 def highest_ratio(frame: Frame) -> float:
