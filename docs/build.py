@@ -2,7 +2,8 @@
 
     python docs/build.py
 
-docs/accuracy.md has times of docs/validation/performance.md.
+docs/accuracy.md has times of docs/validation/performance.md, docs/frameworks.md those of
+docs/validation/framework_cost.json.
 docs/standings.md lists `DesignCode.values` of all codes, docs/provisions.md their provisions.
 docs/how_it_works.md gets the table of the demo, which needs its record (``pip install ".[demo]"``).
 Without it that page stays as it is, and the build says so and ends with 1.
@@ -13,6 +14,7 @@ attributes and terms of the energy are here; a name that is missing or left over
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 import warnings
@@ -410,7 +412,7 @@ def of_results() -> dict[str, str]:
 def generated() -> dict[str, str]:
     """Return the generated parts of all pages but the demo's."""
     others = {"standings.md": standings(), "provisions.md": provisions(), "accuracy.md": costs()}
-    return of_results() | others
+    return of_results() | others | {"frameworks.md": framework_costs()}
 
 
 COSTS = {
@@ -440,6 +442,21 @@ def costs() -> str:
         (found,) = re.findall(rf"^\| ({pattern}) \|$", text, re.MULTILINE)
         rows.append([name, f"{found.split(' | ')[int(column)]} {unit}"])
     return "\n".join(table(("task", "time"), rows))
+
+
+def framework_costs() -> str:
+    """Return the costs of a step in each program, and of a call of the bearing."""
+    kept = json.loads((PAGES / "validation" / "framework_cost.json").read_text(encoding="utf-8"))
+    rows = []
+    for one in kept["steps"]:
+        rows.append([one["program"], one["own"], f"{one['cost']:.0f}"])
+        for cost, ratio in (one[level] for level in kept["calls"]):
+            rows[-1] += [f"{cost:.0f}", f"{ratio:.2f}"]
+    head = ["program", "its own pendulum", "time [µs]"]
+    head += [cell for level in kept["calls"] for cell in (f'`"{level}"` [µs]', "ratio")]
+    calls = [[f'`"{at}"`', *(f"{t:.1f}" for t in times)] for at, times in kept["calls"].items()]
+    ways = ["level", "C interface [µs]", "in-process OpenSees [µs]", "`Element` in Python [µs]"]
+    return "\n".join([*table(head, rows), "", *table(ways, calls)])
 
 
 def demo_table() -> str:
