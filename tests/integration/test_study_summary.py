@@ -97,4 +97,3 @@ def test_a_part_of_campaign_files_has_its_level_and_ratios(parts):
     text = line_of({"campaigns": {"one": parts["device"]["campaigns"]["pendulum"]}})
     assert text.startswith("Level `pendulum`. Collapse: ")
     assert f"{collapse.min():.2f} to {collapse.max():.2f}, " in text
-    assert "earlier devices" in line_of({"campaigns": {}})
