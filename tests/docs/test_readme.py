@@ -15,8 +15,7 @@ import pytest
 
 from validation.page import table
 from validation.study import near_fault as pulses
-from validation.study.device import LIMITS, LIR, REFERENCE, RIMS
-from validation.study.rounded import with_interval
+from validation.study.device import LIMITS, LIR, REFERENCE, RIMS, ratio_of
 from validation.study.summary import COLLAPSE, DCFP, pairs, parts_of
 
 ROOT = Path(__file__).parents[2]
@@ -119,12 +118,10 @@ def when_it_helps() -> str:
     }
     for limit in LIMITS:
         rows = [pairs(own, limit, terms, end)[0] for terms, end in ends.values()]
-        cells = (f"{words.get(r['verdict'], 'alike')}: {with_interval(r['ratio'])}" for r in rows)
+        cells = (f"{words.get(r['verdict'], 'alike')}: {ratio_of(r)}" for r in rows)
         lines.append([limit, *cells])
-    ratios = [
-        pairs(own, COLLAPSE, end=f"{REFERENCE}, {rims}", level=1)[0]["ratio"] for rims in RIMS[:2]
-    ]
-    simple = " and ".join(map(with_interval, ratios))
+    ratios = [pairs(own, COLLAPSE, end=f"{REFERENCE}, {rims}", level=1)[0] for rims in RIMS[:2]]
+    simple = " and ".join(map(ratio_of, ratios))
     cells, cost = pulses.counts(near, pulses.PLAN), own["devices"]
     price = sum(cost[LIR]["cost"].values()) / sum(cost[DCFP]["cost"].values())
     better, worse = cells[pulses.LIR_BETTER], cells[pulses.PLAIN_BETTER]
