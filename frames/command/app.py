@@ -93,11 +93,14 @@ def new(
         try:
             written = write_example(folder, code, example, model)
         except FileExistsError as cause:
-            msg = f"{cause} is there already: name another folder"
+            msg = f"{cause} exists: name another folder"
             raise ProjectError(msg) from cause
     has_bearing = "\n[bearing]" in written[0].read_text(encoding="utf-8")
     then = "check" if has_bearing else "design"
-    say(f"{written[0]} and {len(written) - 1} other files; next: lir {then} {written[0]}")
+    say(
+        f"{written[0]} and {len(written) - 1} other files are written; next: lir {then} "
+        f"{written[0]}"
+    )
 
 
 @app.command(epilog="Example: lir check tower.toml")
@@ -122,12 +125,12 @@ def check(file: File = FILE) -> None:
         _frame_table("Motions", ground.motions.table())
         for each in motion_checks(ground.motions, ground.spectrum, ground.equivalent):
             if not each.passed:
-                say(f"`lir run` will find: {each.statement} does not hold [{each.clause}]")
+                say(f"`lir run` will report: {each.statement} fails [{each.clause}]")
         say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.checks)
         _provisions(provisions_of(parts, ground, (), is_run=False))
         _say_each(from_memory(parts.code()))
-        say(f"the file can be run: lir run {file} ({said_of_runs(parts, ground.motions)})")
+        say(f"the file is complete; next: lir run {file} ({said_of_runs(parts, ground.motions)})")
         if not ground.checks.passed:
             raise typer.Exit(FAILED_CHECKS)
 
@@ -187,14 +190,14 @@ def report(
         found = evaluate_run(parts, known, *read_histories(results, inputs_of(parts, known)))
         if (results / UNFINISHED).is_dir():
             text = (
-                "warning: the report shows the last complete run; a later run was "
+                "warning: the report shows the last complete run, because a later run was "
                 f"interrupted ({results / UNFINISHED})"
             )
             err.print(text, markup=False, highlight=False, soft_wrap=True)
         source = parts.sources.text
         old = [name for name in ("view.html", "report.pdf") if (results / name).is_file()]
         if old:
-            err.print(f"removed with the checks of before: {', '.join(old)}", highlight=False)
+            err.print(f"earlier results removed: {', '.join(old)}", highlight=False)
         written = write_judgement(found, results, source, figures=figures, language=language)
         if pdf:
             written.append(print_report(results / "report.html", results / "report.pdf"))
@@ -209,13 +212,13 @@ def _said_to_be_kept(unfinished: Path) -> None:
     count = sum(1 for _ in unfinished.rglob("*.npz"))
     if count:
         err.print(
-            f"{count} complete runs are kept in {escape(str(unfinished))}: the same command "
-            "continues from there",
+            f"{count} complete runs are kept in {escape(str(unfinished))}: repeat the command to "
+            "continue",
             highlight=False,
             soft_wrap=True,
         )
         if (unfinished.parent / "run.json").is_file():
-            err.print("the other files there are of the run before", highlight=False)
+            err.print("the other files there belong to the earlier run", highlight=False)
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
@@ -224,7 +227,7 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
     for level, statistics, table in tables_of_levels(found.demands):
         _frame_table(f"Demands, level {level}" if level else "Demands", table)
         words = (f"{bound}: {said}" if bound else said for bound, said in statistics)
-        say(f"values are: {'; '.join(words)}")
+        say(f"values: {'; '.join(words)}")
     if found.failures:
         out.print("[bold]Runs that failed[/]: their largest values are not valid for design")
         for cause in dict.fromkeys(one.cause for one in found.failures):
@@ -232,10 +235,12 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
             _say_each(f"  {one}" for one in found.failures if one.cause == cause)
     if len(moved := found.runs.moved):
         seconds = float(moved.parts[0].attrs["seconds"])  # of all of them: one batch
-        say(f"demands are raised by {len(moved)} time histories with moved masses, {seconds:.3g} s")
+        say(
+            f"demands are raised by {len(moved)} time histories with moved masses ({seconds:.3g} s)"
+        )
     _checks("Checks", found.checks)
     _provisions(found.provisions)
-    say(f"{len(written)} files in {results}, report.html among them")
+    say(f"{len(written)} files in {results}, including report.html")
     if not found.checks.passed:
         raise typer.Exit(FAILED_CHECKS)
 
@@ -262,7 +267,10 @@ def bench(
     with exit_codes():
         ground = preliminary(project_in(file))
         name, motion = next(iter(ground.motions.items()))
-        say(f"{name}, {motion.duration:g} s; differences from the first line, at nominal friction")
+        say(
+            f"{name}, {motion.duration:g} s; differences relative to the first line, at nominal "
+            "friction"
+        )
         say(_LINE.format("step", "level", "steps", "us/step", "s", "real time", *_PEAKS, ""))
         try:
             for way in ways_to_run(ground.frame, motion, levels=_levels(contact)):
@@ -273,10 +281,10 @@ def bench(
                 write_whole(table, csv_of(pd.DataFrame(ways), index=False))
         best = recommended(ways[1:], error)
         if best is None:
-            say(f"no step reaches an error of {100.0 * error:.3g} % in the peaks")
+            say(f"every step exceeds the error of {100.0 * error:.3g} % in the peaks")
         else:
             step = "leave dt out" if math.isnan(best.dt) else f'dt = "{1e3 * best.dt:g} ms"'
-            say(f'within {error:.3g} of the peaks: [analysis] {step}, level = "{best.level}"')
+            say(f'error below {error:.3g} in the peaks: [analysis] {step}, level = "{best.level}"')
         say(f"the table is in {table}")
 
 

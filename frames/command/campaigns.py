@@ -28,7 +28,7 @@ def campaign(
     figures: Annotated[bool, typer.Option(help="Draw the figures of the page.")] = True,
     reuse: Annotated[
         list[Path] | None,
-        typer.Option(help="Folder of an earlier campaign whose equal runs are copied."),
+        typer.Option(help="Folder of an earlier campaign, from which equal runs are copied."),
     ] = None,
 ) -> None:
     """Run a campaign of many time histories from its file, or resume it.
@@ -83,7 +83,7 @@ def _run(found: Campaign, workers: int | None, reuse: list[Path]) -> None:
         found.run(workers=workers, progress=True, reuse=reuse)
     except KeyboardInterrupt as cause:
         done = found.status() if found.store.exists else "nothing was run"
-        say(f"\ninterrupted: {done}; the same command goes on")
+        say(f"\ninterrupted: {done}; repeat the command to continue")
         raise typer.Exit(INTERRUPTED) from cause
 
 
@@ -120,9 +120,7 @@ def campaign_archive(
         from frames.risk.campaign.archive import archive_campaign
 
         written = archive_campaign(store, archive)
-        say(
-            f"{written}, {written.stat().st_size / 1e6:.1f} MB; README.md in it says how to read it"
-        )
+        say(f"{written}, {written.stat().st_size / 1e6:.1f} MB, with instructions in its README.md")
 
 
 def _require_packages() -> None:

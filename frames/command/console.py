@@ -88,7 +88,7 @@ def _of_a_file(cause: OSError) -> str:
         return cause.strerror or str(cause)
     name = str(cause.filename)
     short = name if len(name) <= _LONGEST else f"{name[:60]}...{name[-60:]}"
-    return f"{short}: {cause.strerror}: {_REMEDIES.get(cause.errno or 0, 'look at that place')}"
+    return f"{short}: {cause.strerror}: {_REMEDIES.get(cause.errno or 0, 'check this path')}"
 
 
 _LONGEST = 300  # characters of a path in a message
@@ -100,10 +100,10 @@ _REMEDIES = {
     errno.EROFS: "name a place that can be written to",
     errno.EACCES: "name a place that this user may read and write",
     errno.EPERM: "name a place that this user may read and write",
-    errno.ENOENT: "it was removed, or never there: give the command again",
+    errno.ENOENT: "it does not exist: check the path, and repeat the command",
     errno.ENAMETOOLONG: "choose a shorter name",
     errno.EISDIR: "it is a folder: remove it, or name another place",
-    errno.ENOTDIR: "part of it is a file: name another place",
+    errno.ENOTDIR: "a part of the path is a file: name another place",
     errno.EEXIST: "name another place",
 }
 

@@ -125,8 +125,8 @@ def _put(file: Path, sections: str) -> None:
     if not same:
         write_whole(file, text)
         msg = (
-            f"{file}: its bearings are not in sections [bearing] and [bearings.<type>] of their "
-            "own, so that --write would change other keys: put the section in by hand"
+            f"{file}: --write would change other keys, because bearings are not in sections "
+            "[bearing] and [bearings.<type>]: insert the section by hand"
         )
         raise ProjectError(msg)
     say(f"written to {file}; the earlier file is {kept}")
@@ -172,8 +172,8 @@ def _in_the_way(parts: ProjectInputs, found: Sequence[Candidate]) -> None:
         ratio, who = near.governing.ratio, f"radius {near.radius:g} m, friction"
         if 1.0 < ratio < math.inf:
             say(
-                f"- {what}: its limit would have to give by {100.0 * (ratio - 1.0):.2g} % for "
-                f"{who} {near.friction.f_max:g}"
+                f"- {what}: raise its limit by {100.0 * (ratio - 1.0):.2g} % for {who} "
+                f"{near.friction.f_max:g}"
             )
     if not found:
         return
@@ -182,7 +182,7 @@ def _in_the_way(parts: ProjectInputs, found: Sequence[Candidate]) -> None:
         motions = scaled_motions(parts, spectrum, near.analysis)
     except ProjectError:
         return  # no motions
-    say(f"- the motions' share: {excess_of(near.analysis, motions, spectrum)}")
+    say(f"- effect of the motions: {excess_of(near.analysis, motions, spectrum)}")
 
 
 def _objective(word: str) -> Objective:
@@ -227,7 +227,7 @@ def _reasons(found: Sequence[Candidate], impossible: Sequence[Impossible]) -> No
     causes.update("cannot be made" for _ in impossible)
     if causes:
         listed = ", ".join(f"{what} {count}" for what, count in causes.most_common())
-        say(f"fell out, by what they lack most: {listed}")
+        say(f"rejected, by their main reason: {listed}")
     for reason in dict.fromkeys(one.reason for one in impossible):
         say(f"cannot be made: {reason}")
 

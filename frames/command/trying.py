@@ -83,7 +83,7 @@ def tried(
         own = _sized(soon, found, one, last.trial.asked, MARGIN)
         last = last._replace(quick=own)
         if verify and last.passed:
-            say("time histories and checks as `lir run` makes them ...")
+            say("time histories and checks of `lir run` ...")
             last = last._replace(full=_sized(parts, found, own.candidate, own.asked, 1.0))
         done.append(last)
         _write_tried(done, folder)
@@ -120,7 +120,7 @@ def _one_mass(parts: ProjectInputs) -> OneMass | None:
         motions = parts.motions()
     except ProjectError as cause:
         err.print(
-            f"warning: the proposal is of the formula alone, no motions to try it: {cause}",
+            f"warning: the proposal is not tried, because there are no motions: {cause}",
             markup=False,
             highlight=False,
             soft_wrap=True,
@@ -129,9 +129,9 @@ def _one_mass(parts: ProjectInputs) -> OneMass | None:
     rules, spectrum, at = parts.rules(), parts.spectrum(), parts.file.analysis.bounds
     levels = ", ".join(f"{each.name} x {each.factor:g}" for each in rules.levels)
     say(
-        f"\nOne mass (a rigid building) under {len(motions)} motions as the project scales them, "
-        f"times 1 and {MARGIN:g}: levels {levels}; bounds {', '.join(at)}. "
-        "One mass does not overturn: the building itself follows"
+        f"\nOne mass (a rigid building) under {len(motions)} motions with the project's scaling, "
+        f"times 1 and {MARGIN:g}: levels {levels}; bounds {', '.join(at)}. One mass does not "
+        "overturn, so the building is run next"
     )
     return OneMass(
         lambda analysis: scaled_motions(parts, spectrum, analysis),
@@ -172,7 +172,7 @@ def _said(one: Verified) -> str:
     fails = one.row()["fails"]
     nearest = one.nearest
     said += f"{run.checks.tally}{f': {fails}' if fails else ''}"
-    return said if nearest is None else f"{said}; nearest of the bearing's: {nearest.brief}"
+    return said if nearest is None else f"{said}; governing for the bearing: {nearest.brief}"
 
 
 def _write_tried(done: Sequence[Attempt], folder: Path) -> None:
@@ -203,21 +203,21 @@ def conclude(best: Attempt | None) -> None:
     if best is None:
         return
     last, who = best.last, f"radius {best.sized.radius:g} m, friction {best.sized.friction.f_max:g}"
-    how = "as `lir run` makes them" if best.full is not None else "on the building's quick model"
+    how = "in the runs of `lir run`" if best.full is not None else "on the building's quick model"
     if last is not None and last.passed:
         nearest = (
-            "" if last.nearest is None else f"; nearest of the bearing's: {last.nearest.brief}"
+            "" if last.nearest is None else f"; governing for the bearing: {last.nearest.brief}"
         )
         say(f"\n{who}: every check passes {how}{nearest}")
         return
-    say(f"\nnone passes every check; the section below is of the nearest, {who}. In its way:")
+    say(f"\nno candidate passes every check; the section below is of the nearest, {who}. Reasons:")
     for lack in () if last is None else last.lacks:
-        say(f"- as large as its runs ask for it falls out: {lack}")
+        say(f"- rejected at the size that its runs require: {lack}")
     if last is None or last.run is None:
         reason = "" if last is None else last.reason
         say(f"- {reason or f'{best.trial.failures(1.0)} runs on one mass fail'}")
     for lack in best.trial.larger_lacks:
-        say(f"- as large as one mass asks for it falls out: {lack}")
+        say(f"- rejected at the size that one mass requires: {lack}")
     for each in () if last is None else last.obstacles:
         say(f"- {each}")
-    say(f"- the motions' share: {best.trial.excess}")
+    say(f"- effect of the motions: {best.trial.excess}")

@@ -91,7 +91,7 @@ def write_view(
     (True, True)
     """
     if not 0.0 < size < math.inf:
-        msg = f"size = {size:g} MB must be positive: 3 keeps some thousand steps of 12 bearings"
+        msg = f"size = {size:g} MB must be positive: use 3 for about 1,000 steps of 12 bearings"
         raise ValueError(msg)
     held = payload_of(data, model, checks, size)
     text = page_of(held.content).encode("utf-8")

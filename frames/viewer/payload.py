@@ -227,8 +227,8 @@ def _require_finite(moved: Movements, shown: list[Response], nodes: FloatArray) 
         if not good.all():
             step = int(np.argmin(good))
             msg = (
-                f"{name.replace('_', ' ')} of step {step} of {len(values)} is not finite, and "
-                f"cannot be drawn: view the part before it, data.isel(time=slice(0, {step}))"
+                f"{name.replace('_', ' ')} of step {step} of {len(values)} is not finite: view the "
+                f"part before it, data.isel(time=slice(0, {step}))"
             )
             raise ValueError(msg)
 

@@ -162,7 +162,7 @@ class Movements(NamedTuple):
 
 def movements(data: xr.Dataset) -> Movements:
     """Return the histories of all bearings of a result."""
-    need(data, _NEEDED, "record all variables of bearings (frames.Recording), to view them")
+    need(data, _NEEDED, "record all variables of bearings to view them (frames.Recording)")
     names = [str(name) for name in data["bearing"].to_numpy()]
     bodies = [movement(data, device_of(data, name), name) for name in names]
     slip = np.stack([one.slip for one in bodies], axis=1)

@@ -192,7 +192,7 @@ def test_moved_runs_that_fail_or_kept_no_forces(runs, moved):
     assert set(of_lower["void"]) == {"runs with moved masses failed"}
     assert set(of_lower["moved masses add"]) == {0.0}
     bare = moved.drop_vars([n for n in moved.data_vars if str(n).endswith("_force")])
-    with pytest.raises(CheckError, match="kept no forces of the structure"):
+    with pytest.raises(CheckError, match="moved has no forces of the structure"):
         force_demands(cases(runs, bare))
 
 

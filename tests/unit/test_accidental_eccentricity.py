@@ -125,9 +125,9 @@ def test_factors_and_demands_are_those_of_the_runs(ran: Path) -> None:
     text = (out / "checks.txt").read_text(encoding="utf-8")
     assert "accidental eccentricity: masses moved" in text
     assert "e_D D_c" in text
-    assert "masses moved by 5 % of the plan each way raise the demands" in text
+    assert "masses moved by 5 % of the plan in each direction raise the demands" in text
     page = (out / "report.html").read_text(encoding="utf-8")
-    assert "moved by 5 % of the plan&#39;s sides each way, 4 time histories more" in page
+    assert "moved by 5 % of the plan&#39;s sides in each direction, 4 more time histories" in page
 
 
 def test_forces_for_design_have_what_moved_masses_add(ran: Path) -> None:
@@ -230,10 +230,10 @@ def test_all_motions_are_compared_as_the_code_counts_them(ran: Path) -> None:
     assert table.attrs["statistics"]["value"] == "mean of 8 runs, raised by moved masses"
     odd = moved.assign_coords(mass_shift=("run", ["up"] * 4))
     for words, runs, beside in (
-        ("is not among the runs: give runs of the same motions", many, moved),
+        ("is not among the runs: use the motions", many, moved),
         ("mass_shift = 'up' must be one of", data, odd),
         ("no coordinate 'mass_shift'", data, data),
-        ("but there are no runs", {"lower": data}, {"upper": moved}),
+        ("runs has none: add them", {"lower": data}, {"upper": moved}),
     ):
         refused(CheckError, words, history_demands, runs, "ASCE 7-22", moved=beside)
 
@@ -262,14 +262,14 @@ def test_it_is_left_out_where_the_file_says_so(ran: Path, value: str) -> None:
     assert level_runs.said_of_runs(parts, known.motions).count("eccentricity is left out")
     data = load(ran / "out" / "runs-lower.nc")
     note = history_checks(data, known.frame, parts.rules())[0].note
-    assert "without accidental eccentricity, of which ASCE 7-22 17.6.2.1 asks 5 %" in note
+    assert "without accidental eccentricity; ASCE 7-22 17.6.2.1 requires 5 %" in note
 
 
 @pytest.mark.parametrize(
     ("value", "words"),
     [
-        ("0.5", "must be a share of the sides of the plan between 0 and 0.25"),
-        ("-0.05", "must be a share of the sides of the plan between 0 and 0.25"),
+        ("0.5", "must be a share of the plan's sides between 0 and 0.25"),
+        ("-0.05", "must be a share of the plan's sides between 0 and 0.25"),
         ('"5 mm"', "not a unit of a pure number"),
     ],
 )

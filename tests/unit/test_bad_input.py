@@ -158,7 +158,7 @@ def test_masses_by_area(mass: str, words: str, example: Path, tmp_path: Path) ->
             "NCh2745",
             "importance = 1.0",
             "importance = 1.2",
-            ["[superstructure] importance = 1.2 changes nothing: NCh2745"],
+            ["[superstructure] importance = 1.2 has no effect: NCh2745"],
         ),
         (
             "EN 1998",
@@ -179,7 +179,7 @@ def test_values_of_other_codes_that_are_doubted(code, old, new, words, tmp_path,
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("[0.05, 0.05]", "[3, 0.05]", "must be between -0.5 and 0.5, a part of the side"),
+        ("[0.05, 0.05]", "[3, 0.05]", "must be between -0.5 and 0.5 of the side"),
         ('storey_height = "3.5 m"', 'storey_height = "-3.5 m"', "must be greater than 0"),
         ('code = "ASCE 7-22"', 'code = "ASCE7"', "project.code = \"ASCE7\" must be 'ASCE 7-22'"),
         ('radius = "2.25 m"', "radius = 2.25", 'write "2.25 m" or "2250 mm" if that is meant'),
@@ -258,7 +258,8 @@ def test_storeys_that_are_far_too_soft(tmp_path: Path, stiffness: float, soft: b
     assert bool(found) is soft
     if soft:
         assert (
-            "storey_stiffness[0] = 0.4 kN/mm gives the 200 t above a period of 4.44 s" in found[0]
+            "storey_stiffness[0] = 0.4 kN/mm and the 200 t above give a period of 4.44 s"
+            in found[0]
         )
 
 

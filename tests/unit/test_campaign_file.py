@@ -106,7 +106,7 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
         ('folder = "motions"', PULSES, "pulses, which their velocities scale"),
         ('folder = "motions"', f'folder = "motions"\n{PULSES}', "needs one source"),
         ("scales", "turned = [0, 0]\nscales", "has one twice"),
-        ("scales", 'vertical = ["without"]\nscales', "no vertical component to be left out"),
+        ("scales", 'vertical = ["without"]\nscales', "no vertical component: use records"),
         (
             "scales",
             "repeated = {factors = [-1]}\nscales",

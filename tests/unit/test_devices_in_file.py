@@ -153,7 +153,7 @@ def test_tables_of_links_are_by_the_runs(histories: tuple) -> None:
     assert link_demands([Case(Runs(plain), rules)]).empty
 
 
-@pytest.mark.meant("bearings go without walls")
+@pytest.mark.meant("mm displacement without walls")
 def test_what_is_put_in_is_said_and_known(parts_of: Callable[[str], ProjectInputs]) -> None:
     parts = parts_of(MOAT + DAMPERS)
     rows = dict(structure_rows(parts.file, parts.frame()))

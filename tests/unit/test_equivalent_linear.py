@@ -577,7 +577,7 @@ def test_bearings_of_a_frame() -> None:
 
 
 def test_what_does_not_fit_is_refused() -> None:
-    refused(CheckError, "does not go with EN 1998", nominal, SYSTEM, Asce(0.9), code=EN1998())
+    refused(CheckError, "cannot be used with EN 1998", nominal, SYSTEM, Asce(0.9), code=EN1998())
     heavy = replace(ABOVE, storey_weights=(4e6,) * 3)
     refused(CheckError, "storeys weigh", nominal, SYSTEM, Asce(0.9), superstructure=heavy)
     refused(CheckError, "5 loads for 6 bearings", replace, SYSTEM, loads=LOADS[:5])

@@ -237,7 +237,7 @@ def test_a_project_begins_with_a_model(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("told", "said"),
     [
-        (["--from", "none.e2k"], r"none\.e2k must be a file of SAP2000 or ETABS"),
+        (["--from", "none.e2k"], r"none\.e2k must be a text file exported from SAP2000 or ETABS"),
         (["--from", "a.dwg"], r"\.e2k, \.\$et, \.s2k"),
         (["--from", "a.e2k", "--example", "office"], "leave one out"),
     ],

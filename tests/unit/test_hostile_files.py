@@ -128,7 +128,7 @@ def test_a_file_that_changes_before_anything_is_run_is_refused(done, monkeypatch
         return before(parts)
 
     monkeypatch.setattr(design_run, "preliminary", edited)
-    assert "give the command again" in one_line(lir("run", done), 2)
+    assert "repeat the command" in one_line(lir("run", done), 2)
 
 
 def linked(out: Path, name: str, target: Path) -> None:
@@ -289,7 +289,7 @@ def undigested(path: Path) -> None:
         (emptied, "out/runs-upper.nc", "report", 2, "runs-upper.nc is not as it was written"),
         (flipped, "out/runs-nominal.nc", "report", 2, "its SHA-256 is not the one in run.json"),
         (flipped, "out/governing.nc", "view", 2, "governing.nc is not as it was written"),
-        (Path.unlink, "out/governing.nc", "report", 2, "`lir run` writes all files anew"),
+        (Path.unlink, "out/governing.nc", "report", 2, "run `lir run` again"),
         (undigested, "out/governing.nc", "report", 2, "has no results (netCDF)"),
         (binary, "out/run.json", "report", 2, "run.json is damaged"),
         (cut, "out/run.json", "view", 2, "run.json is damaged"),
@@ -399,7 +399,7 @@ def test_sigterm_ends_a_run_as_ctrl_c_does(done: Path) -> None:
         started.terminate()
         said = started.communicate()[1]
     assert started.returncode == 130, said
-    assert "the same command continues from there" in said
+    assert "repeat the command to continue" in said
     assert "Process 0" not in said
     assert not list((done / "out").rglob(".*.part"))
 

@@ -216,10 +216,10 @@ REFUSED_BEAMS = [
 ]
 REFUSED_COLUMNS = [
     (LAST, f"{LAST}\nD1,0,20,1,C,", "has no base beam"),
-    ("C1,0,10,1-2", "C1,0,10,2-1", 'storeys = "2-1" must be a number or a range'),
+    ("C1,0,10,1-2", "C1,0,10,2-1", 'storeys = "2-1" must be a storey or a range'),
     (LAST, "C1,0,10,1,C,\nC1,0,10,3,C,", "is missing in storey 2"),
     (LAST, f"{LAST}\nC1,0,10,2,C,", "two sections in storey 2"),
-    (LAST, "C1,0,10,1,C,\nC1,0,11,2,C,", "a name has one place"),
+    (LAST, "C1,0,10,1,C,\nC1,0,11,2,C,", "write one place for each name"),
     ("C1,0,10,", "C1,6.01,10,", 'columns "C1" and "C2" are both at'),
     ("C1,0,10,", "C1,left,10,", 'x = "left m" is not a number with a unit'),
     ("C1,0,10,", "C1,,10,", "x is empty"),

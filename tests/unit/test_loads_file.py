@@ -137,7 +137,7 @@ def test_eccentric_loads(tmp_path: Path) -> None:
 
 REFUSED = {
     'floor_load = "500 kg/m2"\n[loads]\ndead = "3 kN/m2"': "both give the weight",
-    "": "floor_load is missing: give the mass of the floors",
+    "": "floor_load is missing: write the mass of the floors",
     '[loads]\nlive = "3 kN/m2"': "loads.dead is missing",
     '[loads]\ndead = "450 kg/m2"': 'is in "kg/m2", not a unit of N/m2: write it as "4.5 kN/m2"',
     '[loads]\ndead = "-3 kN/m2"': "must be at least 0",

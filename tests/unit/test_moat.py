@@ -69,7 +69,7 @@ def test_displacements_are_held_against_the_gap() -> None:
     assert [check.passed for check in tight[1:]] == [False, False]
     assert all(check.level == "MCE_R" for check in tight)
 
-    note = "the wall is not modelled: where it is met, its force is in no result"
+    note = "the wall is not modelled: results have no force of contact with it"
     assert {check.note for check in (single, wide[2], tight[2])} == {note}
 
 
@@ -112,15 +112,15 @@ def test_walls_in_the_model_are_told_of_with_what_they_do() -> None:
     assert not single.passed
     model = f"walls at {1e3 * between:.5g} mm along x+, x- are modelled"
     assert single.note == (
-        f"{model}: met in 1 of 2 runs, by up to {1e-3 * force.max():.4g} kN at a node; their force "
-        "is in the results (links.csv)"
+        f"{model}: contact in 1 of 2 runs, with up to {1e-3 * force.max():.4g} kN at a node; "
+        "their force is in the results (links.csv)"
     )
     assert "hold back 1 of 2 runs" in histories.note
     assert "hold back" not in linear.note  # which has no walls
     far = 1.1 * free.max()
     wide = checked(far, "ASCE 7-22", wall_at(far))
     assert wide[3].passed
-    assert wide[3].note.endswith("are modelled: none is met in the runs")
+    assert wide[3].note.endswith("are modelled: no contact in the runs")
     assert "hold back" not in wide[2].note
     pytest.importorskip("babel")
     words = Words("es", ",")

@@ -291,7 +291,7 @@ TARGET = Spectrum.asce7(1.0, 0.6)
         (lambda: SEVEN.scaled_to(TARGET, periods=(2.0, 1.0)), "below the second"),
         (lambda: SEVEN.scaled_to(TARGET, periods=(0.0, 1.0)), "positive"),
         (lambda: SEVEN.scaled_to(TARGET, periods=(1.0, 2.0), measure="PGA"), "measure"),
-        (lambda: MotionSet({"a": shaken(1).scaled(0.0)}), "'a' of the motions is still, x and y"),
+        (lambda: MotionSet({"a": shaken(1).scaled(0.0)}), "motion 'a' has x = y = 0"),
         (
             lambda: MotionSet({"a": GroundMotion(x=np.ones(9), y=np.zeros(9), dt=1.0)}).scaled_to(
                 TARGET, periods=(1.0, 2.0), measure="geometric mean"

@@ -311,7 +311,7 @@ def test_a_table_of_all_kinds(folder: Path, separator: str) -> None:
         ("a,five.acc,m/s2,0.01,rows,", r"'title' is text.*skip=1 \(.*columns of", "1"),
         ("a,CE1.V2,,,,", "holds 3 components.*column record, and the directions", None),
         ("a,five.acc,m/s2,0,01,rows,1", "line 2 has 7 cells, its head 6.*semicolons", None),
-        ("a,five.acc,,,,", "need their unit in the column unit", None),
+        ("a,five.acc,,,,", "unit is missing: set the column unit", None),
         ("a,five.acc,m/s2,soon,rows,1", "dt = soon is not a number", None),
     ],
 )

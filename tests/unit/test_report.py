@@ -278,7 +278,7 @@ def test_results_of_a_version_without_forces_are_refused(copied: Path) -> None:
     facts.write_text(json.dumps(known))
     done = lir("report", copied)
     assert done.exit_code == 2
-    assert "that kept no forces of members and bearings" in " ".join(done.output.split())
+    assert "and have no forces of members and bearings" in " ".join(done.output.split())
 
 
 def test_a_folder_without_a_run_is_refused(copied: Path) -> None:
@@ -287,7 +287,7 @@ def test_a_folder_without_a_run_is_refused(copied: Path) -> None:
     (copied / "results" / "run.json").unlink()
     done = lir("report", copied)
     assert done.exit_code == 2
-    assert "holds no run: `lir run` makes one" in " ".join(done.output.split())
+    assert "has no run: run `lir run`" in " ".join(done.output.split())
 
 
 def test_masses_of_modes_along_both_axes() -> None:
@@ -575,7 +575,7 @@ def test_lines_of_calculations_and_colours(page: str) -> None:
 
 def test_a_pdf_needs_a_browser(results, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(ProjectError, match=r"no browser is found on PATH that prints .*: install"):
+    with pytest.raises(ProjectError, match=r"no browser that prints is on PATH .*: install"):
         print_report(results / "report.html", tmp_path / "report.pdf")
     broken = tmp_path / "chromium"
     broken.write_text("#!/bin/sh\nexit 3\n")
@@ -591,7 +591,7 @@ def test_prints_that_never_agree_are_told(results, tmp_path, monkeypatch):
     monkeypatch.setattr(report_files, "_print", lambda *_: None)
     monkeypatch.setattr("pypdf.PdfReader", lambda _: None)
     monkeypatch.setattr(report_files, "pages_of", lambda _: {"checks": next(prints)})
-    with pytest.raises(ProjectError, match="after 4 prints the contents still name"):
+    with pytest.raises(ProjectError, match="contents are still wrong after 4 prints"):
         print_report(results / "report.html", tmp_path / "report.pdf")
     assert next(prints) == 4
 

@@ -222,7 +222,9 @@ def test_english_is_as_it_was() -> None:
     assert words.table(table) == Table(["a", "b [mm]"], [["lower", "1.5"]], frozenset({1}))
     assert words.say("no value") == "no value"
     assert Words("en", ",").say("(0.1, 0.2) m") == "(0,1, 0,2) m"
-    with pytest.raises(ProjectError, match="language = 'fr' is not one of reports: choose one of"):
+    with pytest.raises(
+        ProjectError, match="language = 'fr' is not a language of reports: choose one of"
+    ):
         Words("fr")
 
 

@@ -39,7 +39,7 @@ def test_the_star_means_what_is_from_memory() -> None:
         ("sure", "", "standing = 'sure'"),
         ("read", "", "name edition and clause"),
         ("agrees", " ", "name the public text"),
-        ("memory", "a book", "'a book' was given: leave it out"),
+        ("memory", "a book", "not 'a book': leave source out"),
         ("own", "a book", "leave it out"),
     ],
 )

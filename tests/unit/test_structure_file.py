@@ -68,7 +68,7 @@ def test_without_sections_it_is_the_ready_made_frame(tmp_path: Path) -> None:
     assert ours.levels == theirs.levels
     assert all((ours.masses[n] == mass).all() for n, mass in theirs.masses.items())
     (doubt,) = file_doubts(parts.file)
-    assert "columns and beams and base_beams: sections of an example" in doubt
+    assert "columns and beams and base_beams: example sections" in doubt
 
 
 def test_sections_are_those_of_the_file(tmp_path: Path) -> None:
@@ -269,7 +269,7 @@ REFUSED = {
     ),
     'columns = { circle = "300 mm", material = "C30/37", cracked = 1.5 }': "must lie in (0, 1]",
     'columns = { circle = "300 mm", material = "C30/37", depth_along = "y" }': (
-        "depth_along does not go with circle"
+        "depth_along has no effect on circle"
     ),
     'columns = { box = ["400 mm", "250 mm"] }': "walls overlap",
     'columns = { box = ["400 mm", 25] }': "has no unit",
@@ -313,7 +313,7 @@ def test_sections_of_beams_that_are_refused(tmp_path: Path) -> None:
     base = MEMBERS.replace(
         '"800 mm"], material = "C30/37"', '"800 mm"], material = "C30/37", storeys = [1, 1]'
     )
-    with pytest.raises(ProjectError, match="they lie above the bearings"):
+    with pytest.raises(ProjectError, match="which are at the base: leave it out"):
         frame_of(tmp_path, GRID + base)
 
 

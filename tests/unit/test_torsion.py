@@ -71,7 +71,7 @@ def test_pendulums_are_as_stiff_as_they_are_loaded(spectrum: Spectrum) -> None:
     assert 0.0 <= own < 5e-3  # what friction of tilting plates carries of the moment
     held = analysed(building(0.1, overturning=False), spectrum, code)["nominal"]
     assert held.trace.value("e_x") - plain.trace.value("e_x") == pytest.approx(2.4, rel=1e-9)
-    assert "the model holds its tilt" in held.trace["x_M"].note
+    assert "the model restrains the tilt" in held.trace["x_M"].note
     assert "the bearings' loads: 0.000 m, " in held.trace["x_M"].note
     assert off.trace["x_M"].note == "centre of mass, of the model's masses"
 

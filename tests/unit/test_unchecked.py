@@ -379,8 +379,8 @@ def test_provisions_of_a_structure_that_yields_are_for_it_alone() -> None:
     hinges = [one for one in OF_BEARINGS if one.only == "yields"]
     (state,) = states_of(hinges, {"yields"}, ())
     assert state.said == (
-        "rotation of plastic hinges and ductility of links: not checked, since no limit of them "
-        "can be given"
+        "rotation of plastic hinges and ductility of links: not checked, because no limit can be "
+        "set for them"
     )
     assert states_of(hinges, {"walls"}, ()) == ()
     (free,) = states_of(OF_BEARINGS[:1], (), ())

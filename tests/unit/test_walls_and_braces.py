@@ -153,7 +153,7 @@ def test_check_says_walls_and_braces(tmp_path: Path) -> None:
 
 REFUSED = {
     "unknown column of a wall": (WALL.replace('"0-1"', '"0-7"'), 'there is no column "0-7"'),
-    "one column": (WALL.replace('"0-1"', '"0-0"'), "twice: name two columns"),
+    "one column": (WALL.replace('"0-1"', '"0-0"'), "twice: write two different columns"),
     "wall above": (WALL + "storeys = [2, 3]", "a wall must start"),
     "thick": (WALL.replace("300 mm", "3000 mm"), "more than half of the length"),
     "storeys": (WALL + "storeys = [1, 4]", "within the 3 of the building"),
@@ -162,13 +162,13 @@ REFUSED = {
     "material": (WALL.replace('material = "C30/37"\n', ""), "material is missing"),
     "concrete": (WALL.replace('"C30/37"', '"concrete"'), 'material = "concrete" is not known'),
     "unknown column of a brace": (BRACE.replace('"1-0"', '"9-0"'), 'there is no column "9-0"'),
-    "brace to itself": (BRACE.replace('"1-0"', '"0-0"'), "twice: name two columns"),
+    "brace to itself": (BRACE.replace('"1-0"', '"0-0"'), "twice: write two different columns"),
     "pattern": (BRACE + 'pattern = "k"', "pattern"),
     "brace above": (BRACE + "storeys = [3, 4]", "within the 3 of the building"),
     "brace section": (BRACE.replace('circle = "100 mm"\n', ""), "has no section"),
     "turned brace": (
         BRACE.replace('circle = "100 mm"', 'box = ["9 cm", "5 mm"]\ndepth_along = "x"'),
-        "rods carry axial force alone",
+        "rods have axial force alone",
     ),
 }
 

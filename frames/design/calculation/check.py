@@ -101,13 +101,16 @@ class Check:
         for name in ("demand", "limit"):
             value = as_number(f"{name} of {self.title!r}", getattr(self, name), self.unit)
             if math.isnan(value):
-                msg = f"{name} of {self.title!r} ({self.clause}) is not a number: see its trace"
+                msg = (
+                    f"{name} of {self.title!r} ({self.clause}) is not a number: find the cause "
+                    "in its trace"
+                )
                 raise CheckError(msg)
             object.__setattr__(self, name, value)
         if math.isinf(self.demand) and math.isinf(self.limit):
             msg = (
                 f"demand and limit of {self.title!r} ({self.clause}) are both infinite: give a "
-                "finite one"
+                "finite limit"
             )
             raise CheckError(msg)
         require_choice("relation", self.relation, ("<=", ">="), error=CheckError)
@@ -118,7 +121,10 @@ class Check:
         try:
             scale(self.unit, self.shown)
         except KeyError as cause:
-            msg = f"{self.title!r} is in {self.unit}, which cannot be shown in {self.shown!r}"
+            msg = (
+                f"{self.title!r} is in {self.unit}, which cannot be shown in {self.shown!r}: "
+                "leave `shown` out"
+            )
             raise CheckError(msg) from cause
         object.__setattr__(self, "trace", self.trace.copy())
 
@@ -342,7 +348,7 @@ class Checks(Sequence[Check]):
             If there is none.
         """
         if not self._checks:
-            msg = "there are no checks, so none governs"
+            msg = "there are no checks, so none governs: make Checks from at least one"
             raise CheckError(msg)
         return max(self._checks, key=lambda check: check.ratio)
 

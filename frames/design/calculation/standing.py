@@ -57,10 +57,13 @@ class Standing:
         needed = self.kind in {"read", "agrees"}
         if needed and not self.source.strip():
             what = "edition and clause" if self.kind == "read" else "the public text"
-            msg = f"a standing {self.kind!r} has no source: name {what}"
+            msg = f"a standing {self.kind!r} needs a source: name {what}"
             raise CheckError(msg)
         if not needed and self.source:
-            msg = f"a standing {self.kind!r} has no source, {self.source!r} was given: leave it out"
+            msg = (
+                f"a standing {self.kind!r} must have no source, not {self.source!r}: leave "
+                "source out"
+            )
             raise CheckError(msg)
 
     @property

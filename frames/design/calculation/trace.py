@@ -197,7 +197,10 @@ class Trace:
     def __getitem__(self, symbol: str) -> Step:
         """Return the line of a symbol."""
         if symbol not in self._steps:
-            msg = f"no {symbol!r} in the calculation: it has {', '.join(self._steps) or 'nothing'}"
+            msg = (
+                f"symbol {symbol!r} is not in the calculation, which has "
+                f"{', '.join(self._steps) or 'nothing'}"
+            )
             raise CheckError(msg)
         return self._steps[symbol]
 
@@ -222,12 +225,15 @@ class Trace:
         try:
             found = evaluate(tree, {name: self[name].value for name in entered})
         except ValueError as cause:
-            msg = f"{symbol} = {formula} combines lists of different lengths: {cause}"
+            msg = (
+                f"{symbol} = {formula} combines lists of different lengths ({cause}): use lists "
+                "of one length"
+            )
             raise CheckError(msg) from cause
         numbers = found if isinstance(found, tuple) else (found,)
         if not all(map(math.isfinite, numbers)):
             where = ", ".join(f"{name} = {self[name].result}" for name in entered)
-            msg = f"{symbol} = {formula} is not finite at {where}: check the values given"
+            msg = f"{symbol} = {formula} is not finite at {where}: check its input values"
             raise CheckError(msg)
         return self._add(
             symbol, found, unit, formula, entered, source=source, note=note, shown=shown
@@ -246,17 +252,17 @@ class Trace:
         shown: str,
     ) -> Step:
         if not symbol.isidentifier() or symbol in RESERVED or symbol in self._steps:
-            why = "is taken" if symbol in self._steps else "is no name for a formula"
-            msg = f"symbol {symbol!r} {why}: a calculation has each once, of letters, digits and _"
+            why = "is in use" if symbol in self._steps else "is not a name for a formula"
+            msg = f"symbol {symbol!r} {why}: choose a new name of letters, digits and _"
             raise CheckError(msg)
         if any(map(math.isnan, value if isinstance(value, tuple) else (value,))):
-            msg = f"{symbol} = {value} is not a number: give one in {unit}"
+            msg = f"{symbol} = {value} is not a number: give a number in {unit}"
             raise CheckError(msg)
         shown = shown or usual_unit(unit)
         try:
             scale(unit, shown)
         except KeyError as cause:
-            msg = f"{symbol} is in {unit}, which cannot be shown in {shown!r}: leave it out"
+            msg = f"{symbol} is in {unit}, which cannot be shown in {shown!r}: leave `shown` out"
             raise CheckError(msg) from cause
         quantities = tuple(self[name].result for name in entered)
         step = Step(Quantity(symbol, value, unit, shown), formula, quantities, source, note)
@@ -266,14 +272,17 @@ class Trace:
 
 def _single(step: Step) -> float:
     if isinstance(step.value, tuple):
-        msg = f"{step.symbol} has {len(step.value)} values: take sum, min or max, or use `each`"
+        msg = f"{step.symbol} has {len(step.value)} values: use sum, min or max, or `each`"
         raise CheckError(msg)
     return step.value
 
 
 def _several(step: Step) -> tuple[float, ...]:
     if isinstance(step.value, float):
-        msg = f"{step.symbol} has one value: call the calculation itself for it"
+        msg = (
+            f"{step.symbol} has one value, and `each` needs a list: call the calculation without "
+            "`each`"
+        )
         raise CheckError(msg)
     return step.value
 

@@ -94,7 +94,8 @@ def service_checks(
         t.given("V_wind", above.wind_shear, "N")
         judge = CheckBuilder(t, "lower", PROJECT if wind is None else wind.standing)
         clause = NO_CLAUSE if wind is None else wind.clause
-        title, note = "sliding under wind", "where it slides: more friction, or a wind restraint"
+        note = "if it slides: raise the friction, or add a wind restraint"
+        title = "sliding under wind"
         found.append(judge(clause, title, "V_wind", "<=", "Q_min", note=note))
     if above.service_displacement > 0.0:
         t = Trace()
@@ -192,14 +193,15 @@ def equivalent_linear(
     chosen = _of_spectrum(spectrum) if code is None else _method(code)
     if canonical(spectrum.code) != chosen.name:
         msg = (
-            f"a spectrum of {spectrum.code!r} does not go with {chosen.name}: give a "
-            "spectrum of that code"
+            f"a spectrum of {spectrum.code!r} cannot be used with {chosen.name}: give a spectrum "
+            f"of {chosen.name}"
         )
         raise CheckError(msg)
     if superstructure is not None and superstructure.weight > system.seismic_weight:
         msg = (
-            f"the storeys weigh {1e-3 * superstructure.weight:.4g} kN, all of it "
-            f"{1e-3 * system.seismic_weight:.4g} kN: give the storeys above the base level alone"
+            f"the storeys weigh {1e-3 * superstructure.weight:.4g} kN, more than the whole "
+            f"structure, {1e-3 * system.seismic_weight:.4g} kN: give the storeys above the base "
+            "level alone"
         )
         raise CheckError(msg)
     at: dict[BoundName, IsolationSystem] = {"nominal": system}

@@ -49,8 +49,8 @@ MULTI_PERIOD = "asce7_multi_period"
 """Shape of spectra that are given by period."""
 
 _BY_S_M1 = (
-    "by S_M1 alone; the ordinate of a multi-period spectrum at T_M is more exact: at one site this "
-    "form was 3 % high at 2 s, 6 % low at 3 s, 10 % low at 4 s"
+    "from S_M1 alone: at one site 3 % high at 2 s, 6 % low at 3 s, 10 % low at 4 s; use a "
+    "multi-period spectrum to avoid this error"
 )
 _NEAR_FAULT = 0.6  # g, S_1 from which on C_s has a further least value
 _STEPS = (0.25, 0.50, 0.67, 1.00)  # of D_M, in tests of increments
@@ -133,7 +133,7 @@ class ASCE7(LinearAnalysis):
         """Raise a CheckError if the spectrum has no S_MS or S_M1."""
         missing = [name for name in ("S_MS", "S_M1") if name not in spectrum.parameters]
         if missing:
-            msg = f"the spectrum has no {' and '.join(missing)}: give one made by Spectrum.asce7"
+            msg = f"the spectrum has no {' and '.join(missing)}: use a spectrum of Spectrum.asce7"
             raise CheckError(msg)
 
     def first_displacement(self, system: IsolationSystem, spectrum: Spectrum) -> float:
@@ -247,7 +247,7 @@ class ASCE7(LinearAnalysis):
         t.given("S_1", s_1, note=said)
         if s_1 >= _NEAR_FAULT:
             least += ", 0.5 * S_1 * I_e / R"
-            note = joined(note, "the last one where S_1 >= 0.6")
+            note = joined(note, "the last one if S_1 >= 0.6")
         formula = f"max(min(S_DS, S_D1 / T_M) * I_e / R, {least})"
         t("C_s", formula, source="ASCE 7-22 12.8.1.1", note=note)
 

@@ -20,13 +20,13 @@ State = Literal["checked", "not checked", "yours"]
 RUN = "lir run"
 """Makes the checks that a project has before its time histories not yet."""
 
-NO_CHECK = "since no check of it was made"
+NO_CHECK = "because no check of it was made"
 """Reason of a provision that should have been checked."""
 
 NEEDS: Mapping[str, str] = {
     "superstructure": "there is no [superstructure] with R",
     "wind": "no wind shear is given ([superstructure] wind_shear)",
-    "combinations": "no load cases of dead, live and snow load are known ([loads] gives them)",
+    "combinations": "no dead, live and snow load cases are given ([loads])",
     "service": "no displacement is given ([superstructure] service_displacement)",
     "gap": "no clear distance is given ([limits] moat_gap)",
     "room": "no clear distance is given ([limits] moat_gap, or walls in [moat])",
@@ -181,8 +181,8 @@ OF_BEARINGS = (
     ),
     Provision(
         NO_CODE,
-        "forces at 3 times the default axial stiffness, where rims are met with a slip",
-        why="since no run has it: give the axial stiffness, and run again",
+        "forces at 3 times the default axial stiffness, for rim contact with slip",
+        why="because no run has it: set axial_stiffness, and run again",
     ),
     Provision(
         NO_CODE,
@@ -222,7 +222,7 @@ OF_BEARINGS = (
     yours(
         NO_CODE,
         "restraint of bearings that lift off",
-        "uplift.csv has how far, and an estimate of the tension if they are held",
+        "uplift.csv has the gaps, and an estimate of the tension in restraints",
     ),
     yours(
         NO_CODE, "strength of walls in shear and at their edges", "members.csv has forces", "walls"
@@ -231,7 +231,7 @@ OF_BEARINGS = (
     Provision(
         NO_CODE,
         "rotation of plastic hinges and ductility of links",
-        why="since no limit of them can be given",
+        why="because no limit can be set for them",
         only="yields",
     ),
 )

@@ -210,7 +210,7 @@ def _of_masses(system: IsolationSystem, k: int) -> str:
     given = 0.0 if system.centre_of_mass is None else system.centre_of_mass[k]
     if abs(centre - given) <= _SAME_CENTRE * system.plan[k]:
         return "centre of mass, of the model's masses"
-    why = "the model holds its tilt" if system.unknown_loads else "loads that are not masses"
+    why = "the model restrains the tilt" if system.unknown_loads else "loads that are not masses"
     of_loads = worded(
         "that of the bearings' loads: {place:.3f} m, {why}", place=round(centre, 3) + 0.0, why=why
     )
@@ -276,7 +276,7 @@ def vertical_checks(
     sliders = [b.slider_radius for b in system.bearings if isinstance(b, LIRBearing)]
     if pressure_limit is not None and system.combinations:
         if len(sliders) < len(system.bearings):
-            msg = "pressure_limit needs bearings with a slider_radius: give LIRBearing for all"
+            msg = "pressure_limit needs the slider_radius of each bearing: give LIRBearing for all"
             raise CheckError(msg)
         t.given_each("r_s", sliders, "m", note="radius of the sliders")
         t.given("p_lim", pressure_limit, "Pa")
@@ -354,8 +354,8 @@ def capacity_check(
     if check.passed:
         return check
     note = worded(
-        "the rim is met at {share:.0f} % of the displacement: equivalent-linear analysis does not "
-        "hold, do a time history with the rims modelled",
+        "rim contact occurs at {share:.0f} % of the displacement, so that equivalent-linear "
+        "analysis is not valid: run a time history with rims",
         share=100.0 / check.ratio,
     )
     return replace(check, note=note)

@@ -142,7 +142,7 @@ class EN1998(LinearAnalysis):
         if self.simplified and (self.fault_distance is None or vertical is None):
             msg = (
                 "the limits of the simplified analysis need fault_distance of EN1998, and a "
-                "superstructure with its vertical_period: give them, or simplified=False"
+                "superstructure with its vertical_period: give both, or set simplified=False"
             )
             raise CheckError(msg)
 
@@ -254,7 +254,7 @@ class EN1998(LinearAnalysis):
             "<=",
             "d_rim",
             subjects=system.labels,
-            note="in Italy; the residual displacement at damage limitation counts where it is more",
+            note="in Italy; the residual displacement at damage limitation counts if it is larger",
         )
 
     def shears(
@@ -326,7 +326,7 @@ def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
     service = math.nan if d.demands.service is None else d.demands.service
     for name, share, load, cycles, speed, shows in (
         ("S, service", service / total, d.average, 20.0, 0.1 * slow, "moves with temperature"),
-        ("P1, benchmark", 1.0, d.average, 3.0, slow, "what later tests are compared with"),
+        ("P1, benchmark", 1.0, d.average, 3.0, slow, "reference for later tests"),
         ("D1, dynamic", 0.25, d.average, 3.0, fast, "friction and stiffness"),
         ("D2, dynamic", 0.50, d.average, 3.0, fast, "friction and stiffness"),
         ("D3, dynamic", 1.00, d.average, 3.0, fast, "friction and stiffness"),

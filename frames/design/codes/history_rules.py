@@ -215,8 +215,8 @@ class HistoryRules:
         limits = dict(self.drift_classes)
         if not limits:
             msg = (
-                f"nonstructural = {kind!r}: {self.code} has one limit of drifts for all elements, "
-                "leave it out"
+                f"nonstructural = {kind!r}: {self.code} has one drift limit for all elements; "
+                "leave nonstructural out"
             )
             raise CheckError(msg)
         require_choice("nonstructural", kind, tuple(limits), error=CheckError)
@@ -252,8 +252,8 @@ class HistoryRules:
                 for each in self.levels
             )
             msg = (
-                f"{self.cited} judges at {len(names)} levels, {factors}: name the level of "
-                f"the runs, action_level={names[0]!r}"
+                f"{self.cited} has checks at {len(names)} levels, {factors}: set the level of the "
+                f"runs, action_level={names[0]!r}"
             )
             raise CheckError(msg)
         require_choice("action_level", name or names[0], tuple(names), error=CheckError)
@@ -318,6 +318,6 @@ LOADS_OF_ASCE = LoadRule(
     {"D": 1.0, "L": 0.0, "S": 0.0},
     lambda s_ms: isolator_combinations(s_ms or 0.0),
     FROM_MEMORY,
-    "of live load only that of storage counts as mass, 25 %",
+    "of live loads, only 25 % of those of storage count as mass",
 )
 """Seismic weight and combinations of ASCE 7, and of codes that give none of their own."""

@@ -93,7 +93,7 @@ class IsolationSystem:
         groups = {"loads": self.loads, "positions": self.positions, "names": names}
         for name, values in groups.items():
             if len(values) != count or count == 0:
-                msg = f"{len(values)} {name} for {count} bearings: give one for each"
+                msg = f"{len(values)} {name} for {count} bearings: give one value for each"
                 raise CheckError(msg)
         combinations = {
             key: require_vector(f"loads of combination {key!r} [N]", v, count, error=CheckError)
@@ -102,7 +102,7 @@ class IsolationSystem:
         found = {key: tuple(v.tolist()) for key, v in combinations.items()}
         object.__setattr__(self, "combinations", found)
         for name, load in zip(names, self.loads, strict=True):
-            remedy = "a bearing without load resists nothing: see its gravity loads"
+            remedy = "a bearing without load resists no shear; check its gravity loads"
             require_positive(f"load of bearing {name}", load, "N", remedy=remedy, error=CheckError)
         for name, place in zip(names, self.positions, strict=True):
             require_vector(f"position of bearing {name} [m]", place, 2, error=CheckError)
@@ -167,7 +167,9 @@ class IsolationSystem:
             chosen = isolator_combinations(s_ms or 0.0)
             chosen = chosen if s_ms is not None else {AVERAGE: chosen[AVERAGE]}
         if AVERAGE not in chosen:
-            msg = f'combinations {", ".join(chosen)}: give "average" as well, it has the friction'
+            msg = (
+                f'combinations {", ".join(chosen)}: add "average", whose loads define the friction'
+            )
             raise CheckError(msg)
         states = {name: gravity(frame.combined(factors)) for name, factors in chosen.items()}
         found = {name: tuple(map(float, state.axial_forces)) for name, state in states.items()}

@@ -231,7 +231,7 @@ def _enter_fixed_base(t: Trace, spectrum: Spectrum) -> None:
     # Base shear of the same structure on a fixed base, of the period T_D: NCh433, importance 1.
     site = dict(spectrum.site)
     if not site:
-        why = "not known: the spectrum is not that of a soil and a zone"
+        why = "unknown: the spectrum is not defined by a soil and a zone"
         t.given("V_fixed", 0.0, "N", source="NCh433 6.2.3", note=why)
         return
     soil, zone = str(site["soil"]), int(site["zone"])

@@ -53,7 +53,10 @@ class FrictionPendulum:
 
     def __post_init__(self) -> None:
         if len(self.radii) not in {1, 2} or len(self.radii) != len(self.frictions):
-            msg = f"radii {self.radii}, frictions {self.frictions}: give one or two surfaces' pairs"
+            msg = (
+                f"radii {self.radii}, frictions {self.frictions}: give one radius and one "
+                "friction for each of one or two surfaces"
+            )
             raise CheckError(msg)
         check_numbers(self, error=CheckError)
 
@@ -121,6 +124,6 @@ class FrictionPendulum:
         if not displacement >= self.corner:
             msg = (
                 f"displacement = {displacement:g} m is below the corner of the loop, "
-                f"{self.corner:g} m, where one surface slides alone: analyse that surface"
+                f"{self.corner:g} m, below which one surface slides alone: analyse that surface"
             )
             raise CheckError(msg)

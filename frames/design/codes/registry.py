@@ -128,10 +128,10 @@ def example_bearing(
     """Return the section ``[bearing]`` of an example."""
     return (
         f'radius = "{radius}"\nslider_height = "{slider} mm"\n'
-        f'slider_radius = "{slider} mm"          # as wide as keeps the resultant on it (e/a)\n'
-        f'capacity = "{capacity} mm"               # displacement at which rims are met: {why}\n'
+        f'slider_radius = "{slider} mm"          # wide enough for the resultant (e/a)\n'
+        f'capacity = "{capacity} mm"               # displacement at rim contact: {why}\n'
         f"friction = {friction:g}\n"
-        f"interface_friction = {interface:g}        # holds until a rim is met\n"
+        f"interface_friction = {interface:g}        # no slip before rim contact\n"
     )
 
 

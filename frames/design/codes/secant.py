@@ -104,8 +104,8 @@ def iterate_displacement(
             raise CheckError(msg)
         assumed = found
     msg = (
-        f"the displacement does not settle: {assumed:.4g} m after {_MOST_ROUNDS} rounds; the "
-        "equivalent-linear analysis does not fit this system: see its friction and the spectrum"
+        f"the displacement does not converge: {assumed:.4g} m after {_MOST_ROUNDS} iterations. The "
+        "equivalent-linear analysis is not suitable here: check the friction and the spectrum"
     )
     raise CheckError(msg)
 

@@ -77,7 +77,7 @@ class Superstructure:
                 found = require_vector(name, values, len(self.storey_weights), error=CheckError)
                 object.__setattr__(self, name, tuple(found.tolist()))
         if not self.storey_weights:
-            msg = "storey_weights is empty: give the weight of one floor at least"
+            msg = "storey_weights is empty: give the weight of at least one floor"
             raise CheckError(msg)
         check_numbers(self, error=CheckError)
 
@@ -118,7 +118,10 @@ class Superstructure:
         """
         levels = np.array([level.z for level in frame.levels])
         if len(levels) < 2:
-            msg = f"{len(levels)} levels: name the base and each floor above by Frame.add_level"
+            msg = (
+                f"{len(levels)} levels, and at least 2 are needed: add the base and each floor "
+                "by Frame.add_level"
+            )
             raise CheckError(msg)
         return cls(
             fixed_base_period=gravity(frame).held_periods[0],

@@ -93,7 +93,7 @@ SURFACES = ("bottom", "top")
 def require_rims(bearing: LIRBearing) -> None:
     """Raise a CheckError if a bearing has no rims."""
     if not math.isfinite(bearing.lateral_capacity):
-        msg = "the bearing has no rims: give it a capacity, or leave this check out"
+        msg = "the bearing has no rims (capacity = inf): set capacity, or leave this check out"
         raise CheckError(msg)
 
 
@@ -104,7 +104,7 @@ def enter_geometry(bearing: LIRBearing) -> Trace:
         zip(bearing.radii, bearing.rim_displacement, strict=True), start=1
     ):
         t.given(f"R_{k}", radius, "m")
-        t.given(f"d_rim_{k}", rim, "m", shown="mm", note="sliding at which the rim is met")
+        t.given(f"d_rim_{k}", rim, "m", shown="mm", note="sliding at rim contact")
     t.given("h", bearing.slider_height, "m", shown="mm")
     t("L", "R_1 + R_2 - h", "m")
     t("U_cap", "L * min(d_rim_1 / R_1, d_rim_2 / R_2)", "m", shown="mm")
@@ -119,7 +119,10 @@ def enter_bearing(
     """Return a calculation with a bearing's geometry, frictions at their bounds, and its slips."""
     require_rims(bearing)
     if bearing.is_dcfp:
-        msg = "the slider is rigid: it has no interface to check"
+        msg = (
+            "a rigid slider (interface_friction = inf) has no interface: set "
+            "interface_friction, or leave this check out"
+        )
         raise CheckError(msg)
     t = enter_geometry(bearing)
     t.given("a", bearing.slider_radius, "m", shown="mm")

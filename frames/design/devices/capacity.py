@@ -157,7 +157,7 @@ def engagement_checks(
     asked = [(rule.clause, known, share, rule.note)]
     if agreed is not None:
         require_positive("agreed", agreed, "-", error=CheckError)
-        said = "as agreed; the code's own is checked beside it"
+        said = "as agreed; the code's share is checked separately"
         asked.append((PROJECT_LIMIT, PROJECT, agreed, said))
     of: Mapping[Bound, float] = (
         displacement if isinstance(displacement, Mapping) else {"": displacement}

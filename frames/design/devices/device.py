@@ -118,7 +118,7 @@ def _holds(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
             f"N_{name} * (mu_e + s_left / L)",
             "N",
             source="docs/theory.md (2.1)",
-            note="interface, before a rim is met",
+            note="interface, before rim contact",
         )
         t(f"H_{name}", f"mu_h_L * N_{name} / gamma", "N")
         found.append(

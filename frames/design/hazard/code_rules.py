@@ -158,8 +158,8 @@ def add_rules(code: HazardRules, *, replace: bool = False) -> None:
         twice = words & {other.name, *other.aliases, *(rule.name for rule in other.scaling)}
         if twice:
             msg = (
-                f"{sorted(twice)[0]!r} is a name of {other.name!r} already: choose another, or "
-                "give replace=True to put a code in the place of one of the same name"
+                f"name {sorted(twice)[0]!r} belongs to {other.name!r}: choose another name, or set "
+                "replace=True to replace a code of the same name"
             )
             raise MotionError(msg)
     _KNOWN[code.name] = code

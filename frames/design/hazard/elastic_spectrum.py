@@ -99,8 +99,8 @@ class ElasticSpectrum:
         if abs(ratio - 0.05) > 1e-9:
             codes = ", ".join(known_names())
             msg = (
-                f"{self.name}: damping = {ratio:g} needs a rule: give the spectrum with code=, "
-                f"one of {codes}"
+                f"{self.name}: damping = {ratio:g} needs a rule: make the spectrum with code=, one "
+                f"of {codes}"
             )
             raise MotionError(msg)
         return 1.0
@@ -175,8 +175,8 @@ class ElasticSpectrum:
         if self.shape != "asce7_multi_period" or last >= min(period, LAST_OF_ASCE):
             return ""
         return worded(
-            "{name}: T = {period:.3g} s lies beyond its last point, {last:g} s: it is continued as "
-            "1/T, which ASCE/SEI 7-22 does after 10 s only; give points to {ceil} s or more",
+            "{name} is extrapolated as 1/T from its last point, {last:g} s, to T = {period:.3g} "
+            "s; ASCE/SEI 7-22 does so only beyond 10 s. Give points to {ceil} s or more",
             name=self.name,
             period=period,
             last=last,

@@ -84,8 +84,8 @@ def factor_doubts(factor: float, motions: Mapping[str, GroundMotion]) -> tuple[s
         for name, m in motions.items()
     }
     name = max(peaks, key=lambda each: peaks[each])
-    remedy = "motions are in m/s2 once they are read: the unit of the files belongs in the column "
-    remedy += '"unit" of their table, scale = 1 leaves them as recorded'
+    remedy = "set the unit of the files in the column "
+    remedy += '"unit" of their table; scale = 1 leaves motions as recorded'
     for words, value in CONVERSIONS.items():
         if abs(abs(factor) / value - 1.0) < 0.005:
             return (
@@ -102,8 +102,8 @@ def factor_doubts(factor: float, motions: Mapping[str, GroundMotion]) -> tuple[s
     if peaks[name] > STRONGEST:
         return (
             worded(
-                "scale = {factor:g} gives {motion} a PGA of {peak:.3g} g, almost no record has "
-                "more than {most:g} g: {remedy}",
+                "scale = {factor:g} gives {motion} a PGA of {peak:.3g} g, above the {most:g} g of "
+                "almost all records: {remedy}",
                 factor=factor,
                 motion=name,
                 peak=peaks[name],
@@ -141,13 +141,16 @@ class MotionCollection(Mapping[str, GroundMotion]):
         still = [name for name, motion in pairs if not motion.components[:, :2].any()]
         if still:
             msg = (
-                f"{still[0]!r} of the motions is still, x and y are 0 throughout: name the file "
-                "that has its shaking, or leave the motion out"
+                f"motion {still[0]!r} has x = y = 0 throughout: name the file of its "
+                "accelerations, or leave the motion out"
             )
             raise MotionError(msg)
         stray = set(self.facts) - set(names)
         if stray:
-            msg = f"facts of {sorted(stray)[0]!r} belong to no motion: {', '.join(names)} are given"
+            msg = (
+                f"facts of {sorted(stray)[0]!r} belong to no motion: use the names "
+                f"{', '.join(names)}"
+            )
             raise MotionError(msg)
         object.__setattr__(self, "motions", dict(pairs))
         object.__setattr__(self, "facts", {n: dict(self.facts.get(n, {})) for n in names})

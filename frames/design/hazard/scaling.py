@@ -95,7 +95,7 @@ def scaled_so(
     found = np.array([pair_spectrum(m, grid, damping, kind) for m in motions.values()])
     if not (found > 0.0).all():
         name = list(motions)[int(np.argmin(found.min(axis=1)))]
-        msg = f"{name} does not move in the measure {kind!r}: leave it out of the set"
+        msg = f"{name} has no acceleration in the measure {kind!r}: leave it out of the set"
         raise MotionError(msg)
     factors = np.ones(len(motions))
     if how == "amplitude":  # least squares of the logarithms

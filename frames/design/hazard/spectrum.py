@@ -110,9 +110,9 @@ class Spectrum(ElasticSpectrum):
             raise MotionError(msg)
         if corner > LONGEST_CORNER:
             msg = worded(
-                "T_S = s_m1 / s_ms = {long:g} / {short:g} = {period:.3g} s, usual are 0.3 to 1.2 "
-                "s: s_ms and s_m1 are probably exchanged, which changes the displacement at long "
-                "periods by a factor of {factor:.3g}; give s_ms at short periods, s_m1 at 1 s",
+                "s_m1 / s_ms = {long:g} / {short:g} = {period:.3g} s is outside 0.3 to 1.2 s: "
+                "check whether s_ms and s_m1 are exchanged, which changes long-period "
+                "displacements by a factor of {factor:.3g}",
                 long=long,
                 short=short,
                 period=corner,
@@ -240,7 +240,7 @@ class Spectrum(ElasticSpectrum):
         peak = require_positive("a_g", a_g, "m/s2", error=MotionError)
         gamma = require_positive("importance", importance, error=MotionError)
         if peak > STANDARD_GRAVITY * 3.0:
-            msg = f"a_g = {peak:g} m/s2 is more than 3 g: give m/s2 (0.25 g are 2.45 m/s2)"
+            msg = f"a_g = {peak:g} m/s2 exceeds 3 g: give a_g in m/s2 (0.25 g are 2.45 m/s2)"
             raise MotionError(msg)
         constants = {"a_gR": peak, "gamma_I": gamma, "a_g": gamma * peak}
         constants |= zip(("S", "T_B", "T_C", "T_D"), grounds[ground_type], strict=True)
@@ -401,10 +401,10 @@ def _checked_points(
         )
         raise MotionError(msg)
     if not (np.isfinite(period).all() and period[0] >= 0.0 and (np.diff(period) > 0.0).all()):
-        msg = f"periods = {period.tolist()} must be finite, >= 0 and rising: sort them, in s"
+        msg = f"periods = {period.tolist()} s must be finite, at least 0 and rising: sort them"
         raise MotionError(msg)
     bad = level[~((level > 0.0) & (level <= largest))]
     if bad.size:
-        msg = f"{name} hold {bad[0]:g}: give positive values, at most {largest:g}; check the unit"
+        msg = f"{name} have {bad[0]:g}: give positive values, at most {largest:g}; check the unit"
         raise MotionError(msg)
     return tuple(zip(period.tolist(), level.tolist(), strict=True))

@@ -229,7 +229,7 @@ class PointSource:
             msg = f"amplification = {self.amplification!r}: give pairs of frequency [Hz] and factor"
             raise MotionError(msg)
         if not (np.diff(pairs[:, 0]) > 0.0).all():
-            msg = f"amplification: frequencies {pairs[:, 0].tolist()} Hz must rise"
+            msg = f"amplification: frequencies {pairs[:, 0].tolist()} Hz must rise: sort the pairs"
             raise MotionError(msg)
 
     @property

@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 _ALONE = (
-    "a rim may press alone at the level 'pendulum': where that decides, the level 'contact' lets "
-    "the sliders turn until both press (resultant_offsets says when)"
+    "at the level 'pendulum' one rim may press alone: if this check governs, run at the level "
+    "'contact', at which sliders rotate until both press"
 )
 
 
@@ -60,7 +60,9 @@ def devices_of(data: xr.Dataset, frame: Frame) -> dict[str, LIRBearing]:
     devices = {name: link.bearing for name, link in frame.bearings.items()}
     odd = sorted(set(names_of(data, "displacement")) ^ set(devices))
     if odd:
-        msg = f"bearing {odd[0]!r} is in the runs or in the frame alone: give the runs' frame"
+        msg = (
+            f"bearing {odd[0]!r} is not in both the runs and the frame: give the frame of the runs"
+        )
         raise CheckError(msg)
     return devices
 

@@ -100,7 +100,7 @@ class BoundChecks:
         # With each check: which runs failed if they may, or that there is more to read.
         marked = int((self.case.data["doubts"].to_numpy() != "").sum())
         more = (
-            worded("assumption checks of {n} runs mark something: see the check of runs", n=marked)
+            worded("assumption checks of {n} runs have findings: see the check of runs", n=marked)
             if marked
             else ""
         )
@@ -108,7 +108,7 @@ class BoundChecks:
         allowed = (
             ""
             if self.case.suite.void or not failed
-            else worded("{n} runs failed: as many may", n=failed)
+            else worded("{n} runs failed, as many as may fail", n=failed)
         )
         return joined(allowed, more)
 
@@ -136,7 +136,8 @@ class BoundChecks:
         if self.case.moved is not None:
             share = 100.0 * self.case.rules.accidental_eccentricity
             return worded(
-                "masses moved by {share:g} % of the plan each way raise the demands", share=share
+                "masses moved by {share:g} % of the plan in each direction raise the demands",
+                share=share,
             )
         code = HISTORY_RULES.get(self.case.rules.code)
         asked = self.case.rules if code is None else code
@@ -145,7 +146,7 @@ class BoundChecks:
         share = 100.0 * asked.accidental_eccentricity
         clause = self._clause(asked.eccentricity_clause)
         return worded(
-            "without accidental eccentricity, of which {clause} asks {share:g} %",
+            "without accidental eccentricity; {clause} requires {share:g} %",
             clause=clause,
             share=share,
         )
@@ -314,7 +315,7 @@ class BoundChecks:
         word = "laxer" if own > code else "not laxer"
         clause = self._clause(self.case.rules.drift_clause)
         return worded(
-            "{word} than {limit:g} % of {clause}, which is checked beside it",
+            "{word} than {limit:g} % of {clause}, which is checked separately",
             word=word,
             limit=100.0 * code,
             clause=clause,
@@ -328,7 +329,7 @@ class BoundChecks:
         def enter(t: Trace, values: FloatArray, of: str) -> str:
             suite.enter(t, "theta", values, "-", "%", of=of)
             if least:
-                more = "least shear over that of the runs, as its own check has it; 1 at least"
+                more = "least shear over that of the runs, from its check; at least 1"
                 t.given("f_V", raise_of(least).above, note=more)
                 suite.form(t, "theta_d", "f_V * theta", "-", "%", of="theta")
             if nu < 1.0:
@@ -366,8 +367,8 @@ class BoundChecks:
         trace = self.equivalent.bounds[self.case.bound].trace
         if not self.case.rules.has_minima or symbol not in trace:
             msg = (
-                f"equivalent has no minima for time histories ({symbol}): use a code that "
-                "has them, for example ASCE 7-22, with a superstructure, or leave it out"
+                f"equivalent has no minima for time histories ({symbol}): use a code that has "
+                "them, for example ASCE 7-22, with a superstructure, or leave equivalent out"
             )
             raise CheckError(msg)
         return trace.value(symbol)

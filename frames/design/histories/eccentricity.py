@@ -120,7 +120,7 @@ class Case:
                 why = way.there.reason
                 failed.append(worded("masses moved {way}: {why}", way=way.name, why=why))
             elif way.here.void:  # reference of the moved masses
-                failed.append(worded("masses where they are: {why}", why=way.here.void))
+                failed.append(worded("masses not moved: {why}", why=way.here.void))
             motions = worded(
                 "{statistic} of all {n} motions", statistic=way.there.statistic, n=len(way.rows)
             )
@@ -213,7 +213,7 @@ def cases_of(runs: Runs, rules: HistoryRules) -> list[Case]:
     found = []
     for (level, bound), own in runs.by(HAZARD, BOUND).items():
         if not len(own.centred):
-            msg = f"moved has the bound {bound!r}, but there are no runs of it: add them"
+            msg = f"moved has runs at the bound {bound!r}, runs has none: add them to runs"
             raise CheckError(msg)
         case = Case(own, rules, level, cast("Bound", bound))
         _refuse_runs(case.data, bound)
@@ -299,8 +299,8 @@ def _place(data: xr.Dataset, moved: xr.Dataset, k: int) -> int:
         if str(name) == motion and math.isclose(float(factor), scale, rel_tol=1e-12):
             return place
     msg = (
-        f"moved: the motion {motion!r} at the scale {scale:g} is not among the runs: give runs of "
-        "the same motions"
+        f"moved: the motion {motion!r} at the scale {scale:g} is not among the runs: use the "
+        "motions and scales of the runs"
     )
     raise CheckError(msg)
 
@@ -331,8 +331,8 @@ def _refuse_runs(data: xr.Dataset, bound: str) -> None:
     models = sorted({str(name) for name in data["model"].to_numpy()})
     if len(models) != 1:
         msg = (
-            f"{what}: there are {len(models)} structures, {', '.join(models)}: give one for "
-            "each friction bound"
+            f"{what}: there are {len(models)} structures, {', '.join(models)}: give the runs of "
+            "one structure for each friction bound"
         )
         raise CheckError(msg)
     motions = [str(name) for name in data["motion"].to_numpy()]

@@ -73,7 +73,7 @@ def shear_checks(case: Case, known: BoundResult, storey: str = "", note: str = "
     if not storey:
         return found
     if not case.keeps("storey_shear"):
-        msg = "runs have no storey shears (peak_storey_shear): compute them anew"
+        msg = "runs have no storey shears (peak_storey_shear): run them again"
         raise CheckError(msg)
     t = Trace()
     suite.enter(t, "V_st", peaks_of_runs(data, "storey_shear")[:, 0], "N")
@@ -164,9 +164,7 @@ def _acting(data: xr.Dataset, kind: _Kind) -> FloatArray:
     # All six forces of each section, (run, section, force, extreme, at once).
     name, six = PEAK + kind.variable, kind.forces
     if name not in data:
-        msg = (
-            "moved: its runs kept no forces of the structure: run them with Recording(forces=True)"
-        )
+        msg = "moved has no forces of the structure: run it with Recording(forces=True)"
         raise CheckError(msg)
     order = ("run", *kind.columns, six, "extreme", f"{six}_at_once")
     return data[name].transpose(*order).to_numpy().reshape(data.sizes["run"], -1, 6, 2, 6)

@@ -89,7 +89,7 @@ def bounded_histories(
     factors = scales if isinstance(scales, Mapping) else dict.fromkeys(suite, scales)
     lacking = [name for name in suite if name not in factors]
     if lacking:
-        msg = f"scales has no factor for the motion {lacking[0]!r}: give one for each motion"
+        msg = f"scales has no factor for the motion {lacking[0]!r}: give one factor for each motion"
         raise CheckError(msg)
     models: dict[str, Frame] = {name: with_property_bounds(frame, name, bounds) for name in at}
     cases = [(bound, name, factors[name]) for bound in models for name in suite]
@@ -274,6 +274,6 @@ def _cases(
 def _unlike_runs(tag: str, bound: str) -> str:
     where = f" at the bound {bound!r}" if bound else ""
     if tag == MASS_SHIFT:
-        lacking = f"no coordinate {tag!r} along 'run': name the way of each run, '+x'"
+        lacking = f"no coordinate {tag!r} along 'run': name the direction of each run, '+x'"
         return f"moved{where}: {lacking}"
     return f"runs{where}: no dimension 'run': give the Dataset of time_histories"

@@ -22,7 +22,7 @@ class SlabCorner(NamedTuple):
     note: str  # its place, in words
 
 
-_INSIDE = "the bearings enclose the nodes of the base: a rigid slab moves most at a bearing"
+_INSIDE = "the bearings enclose the nodes of the base: a rigid slab moves farthest at a bearing"
 
 
 def farthest_corner(frame: Frame, each: FloatArray) -> SlabCorner:
@@ -47,8 +47,8 @@ def farthest_corner(frame: Frame, each: FloatArray) -> SlabCorner:
         if factor > found.factor * (1.0 + 1e-9):
             x, y = place
             note = worded(
-                "node {name} of the base at x = {x:.4g} m, y = {y:.4g} m moves most: at most "
-                "{factor:.3f} times what the farthest bearing does, the slab rigid",
+                "node {name} of the base at x = {x:.4g} m, y = {y:.4g} m moves farthest: at most "
+                "{factor:.3f} times the displacement of the farthest bearing, with a rigid slab",
                 name=name,
                 x=x + 0.0,
                 y=y + 0.0,

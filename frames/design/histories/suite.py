@@ -181,7 +181,7 @@ def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
     """Return the peaks of a quantity in the runs, (n_runs, ...)."""
     if "run" in data.dims:
         if PEAK + name not in data.variables:
-            msg = f"the runs keep no {name!r}, an earlier version made them: run them again"
+            msg = f"the runs have no {name!r} because an earlier version made them: run them again"
             raise CheckError(msg)
         return data.variables[PEAK + name].transpose("run", ...).to_numpy()
     return reached(data, name)[None]

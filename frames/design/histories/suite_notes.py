@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 
 
 ON_AXIAL_STIFFNESS = (
-    "rims met with a slip: it goes with the root of axial_stiffness, here the default, an estimate "
-    "from 0.3 to 3 times"
+    "rim contact with slip: the force varies with the square root of axial_stiffness, here the "
+    "default, an estimate from 0.3 to 3 times"
 )
 """Note of checks of forces that rest on a default (docs/theory.md, 2.9)."""
 

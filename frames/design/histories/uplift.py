@@ -98,7 +98,9 @@ class Uplift(BearingDemands):
         if self.limits.axial_force is not None:
             run = int(max(runs, key=lambda i: force[i]))
         t = Trace()
-        note = worded("largest of the run, {motion}: the landing's at most", motion=self._run(run))
+        note = worded(
+            "largest of the run, {motion}; upper bound for the landing", motion=self._run(run)
+        )
         t.given("N_land", float(force[run]), "N", note=note)
         symbol, limit = self._enter_resistance(t)
         if symbol == "p_land":
@@ -113,7 +115,7 @@ class Uplift(BearingDemands):
             t.given("N_R", self.limits.axial_force, "N", note="as given")
             return "N_land", "N_R"
         own = self.limits.interface_pressure
-        note = "a proposal: give axial_force or interface_pressure" if own is None else "as given"
+        note = "a proposal: set axial_force or interface_pressure" if own is None else "as given"
         t.given("p_lim", LANDING_PRESSURE if own is None else own, "Pa", note=note)
         return "p_land", "p_lim"
 
@@ -133,9 +135,8 @@ class Uplift(BearingDemands):
         wide = np.where(self._lifted, np.nan_to_num(gap, nan=math.inf), 0.0)
         run, k = np.unravel_index(int(np.argmax(wide)), wide.shape)
         return worded(
-            "bearings lift off in {n} of {all} runs, {times:.0f} times in all; the widest gap, "
-            "{gap:.3g} mm, {motion}, at {where}: in the air for {time:.3g} s of the run, axial "
-            "force up to {force:.4g} kN",
+            "bearings lift off in {n} of {all} runs, {times:.0f} times; largest gap {gap:.3g} mm "
+            "({motion}, {where}, lifted for {time:.3g} s), axial force up to {force:.4g} kN",
             n=len(runs),
             all=len(wide),
             times=count.sum(),
@@ -176,7 +177,7 @@ def _enter_rim(bearing: LIRBearing) -> Trace:
             shown="mm",
             note="edge of the slider",
         )
-    t.given("a_h", RIM_SHARE, note="a proposal: give rim_height")
+    t.given("a_h", RIM_SHARE, note="a proposal: set rim_height")
     t(
         "h_rim",
         "a_h * max(min((h - z_1 - z_2) / 2, c_1, c_2), 0)",

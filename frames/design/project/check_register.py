@@ -206,7 +206,7 @@ def checks_of(run: RunToCheck) -> list[Check]:
         made: object = make(run)
         for one in made if isinstance(made, Iterable) else [made]:
             if not isinstance(one, Check):
-                msg = f"{name} returned {one!r}: have it return a list of frames.design.Check"
+                msg = f"{name} returned {one!r}: return a list of frames.design.Check"
                 raise CheckError(msg)
             found.append(one)
     return found

@@ -67,7 +67,10 @@ class Table(BaseModel):
         for key, value in given.items() if isinstance(given, dict) else ():
             field = cls.model_fields.get(str(key))
             if isinstance(value, bool) and field and "bool" not in str(field.annotation):
-                msg = f"{key} = {str(value).lower()} must be a number or a text, not a truth value"
+                msg = (
+                    f"{key} = {str(value).lower()} must be a number or a text: write it without "
+                    "true or false"
+                )
                 raise ValueError(msg)
         return given
 
@@ -161,7 +164,9 @@ def _table_of(
         keys[each.name] = (key_of(kind, each.name) if names else held, key)
     if issubclass(kind, FrictionLaw):
         if LAW in keys:
-            msg = f'{kind.__name__}: its field "{LAW}" is the key that names a law: rename it'
+            msg = (
+                f'{kind.__name__}: its field "{LAW}" is reserved for the name of the law: rename it'
+            )
             raise _NoKeyError(msg)
         known = kind in _BY_KEYS
         keys[LAW] = (Literal[kind.__name__], Field(kind.__name__ if known else ...))
@@ -234,7 +239,7 @@ def _discriminator(ways: list[Any], laws: tuple[type[FrictionLaw], ...]) -> Disc
     named = [f'"{way.__name__}"' for way in ways if _is_law(way)]
     if not named:
         return Discriminator(_chosen(ways))
-    said = f"its law is not known: choose one of {', '.join(named)}, or name its Python file under "
+    said = f"its law is not known: choose one of {', '.join(named)}, or add its Python file to "
     said += "extensions"
     for name in _given_twice(laws):
         places = [law.__module__ for law in laws if law.__name__ == name]

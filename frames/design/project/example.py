@@ -134,7 +134,7 @@ BUILDINGS = {
 
 _WITH_VERTICAL = frozenset({"near-fault"})  # buildings whose motions have a vertical component
 _PLAIN = "example.toml"
-_NO_BEARING = """# [bearing] is what `lir design` prints: put it here.
+_NO_BEARING = """# Put the section [bearing] here that `lir design` prints.
 
 """
 _KEPT_AS_TEXT = ".txt"  # ending of files of a building that are not Python of this package
@@ -152,7 +152,7 @@ def write_example(
     fitted to the design spectrum. They are for trying the project, not for design.
     """
     if model is not None and building is not None:
-        msg = f"--example {building} beside --from {model}: leave one out"
+        msg = f"--example {building} and --from {model} exclude each other: leave one out"
         raise ProjectError(msg)
     texts = _plain(code) if building is None else _building(building, code)
     if model is not None:
@@ -178,7 +178,10 @@ def _of_model(text: str, model: Path) -> str:
     kind = next((program for program, known in endings.items() if suffix in known), "")
     if not kind or not model.is_file():
         listed = ", ".join(", ".join(known) for known in endings.values())
-        msg = f"--from {model} must be a file of SAP2000 or ETABS, exported as text: {listed}"
+        msg = (
+            f"--from {model} must be a text file exported from SAP2000 or ETABS, with the ending "
+            f"{listed}"
+        )
         raise ProjectError(msg)
     section = _kept().joinpath("imported.toml").read_text(encoding="utf-8")
     section = _as_read(section, kind, model).replace("KIND", kind).replace("FILE", model.name)
@@ -196,7 +199,7 @@ def _as_read(section: str, kind: str, model: Path) -> str:
             judged(building, Options())
         except ModelError as cause:
             reasons = str(cause)
-            tell(f"{reasons}\nmend this in [structure] of project.toml, or in the model")
+            tell(f"{reasons}\ncorrect this in [structure] of project.toml, or in the model")
     if building is not None:
         named = [*building.groups, *building.link_properties]
         cases = [name for name, part in building.patterns.items() if case_of(part.kind)]
@@ -254,7 +257,7 @@ def _building(name: str, code: str | None) -> dict[str, str]:
     }
     own = re.search(r'(?m)^code = "([^"]*)"', texts["project.toml"])
     if code is not None and own is not None and canonical(code) != own[1]:
-        msg = f'code = "{code}": the example "{name}" is of {own[1]}: leave --code out'
+        msg = f'code = "{code}": the example "{name}" has the code {own[1]}: leave --code out'
         raise ProjectError(msg)
     return texts
 

@@ -73,7 +73,7 @@ def _written(frame: Frame, result: BoundResult, program: Program, folder: Path) 
     try:
         write(frame, path, displacement=result.displacement)
     except ModelError as cause:
-        return f"{path.name} is not written: {cause}"
+        return f"{path.name} is not written, because {cause}"
     return f"{path.name}: links at {1e3 * result.displacement:.1f} mm"
 
 

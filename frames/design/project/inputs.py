@@ -67,7 +67,7 @@ class ProjectInputs:
         """Return the bearing under each column that no other type is named for."""
         given = self.file.bearing
         if given is None:
-            msg = "[bearing] is missing: `lir design` proposes one"
+            msg = "[bearing] is missing: write it, or run `lir design --write`"
             raise ProjectError(msg)
         return bearing_of(given)
 
@@ -77,7 +77,7 @@ class ProjectInputs:
         for name, given in self.file.bearings.items():
             if name == STANDARD:
                 msg = (
-                    f"[bearings.{name}] has the name of the type in [bearing]: choose another name"
+                    f"[bearings.{name}] must not have the name of the type in [bearing]: rename it"
                 )
                 raise ProjectError(msg)
             found[name] = bearing_of(given, f"bearings.{name}")
@@ -238,8 +238,8 @@ def frame_of(
         return building_frame(given, bearing, name, folder, loads)
     if loads is not None:
         msg = (
-            f'[loads] is for a moment frame or an irregular one: kind = "{given.kind}" has its own '
-            "masses and loads, leave the section out"
+            f'[loads] is for moment and irregular frames, and kind = "{given.kind}" has its own '
+            "masses and loads: remove the section"
         )
         raise ProjectError(msg)
     if isinstance(given, ShearBuilding):

@@ -42,7 +42,7 @@ class CsvRow(Row):
         try:
             return si(given, "m", "6.5 m")
         except ValueError as cause:
-            msg = f'{key} = "{given}" {cause}, or head it "{key} [m]"'
+            msg = f'{key} = "{given}" {cause}, or write the unit in the head, "{key} [m]"'
             raise self.error(msg) from cause
 
     def choice(self, key: str, choices: Sequence[str]) -> str | None:
@@ -63,8 +63,8 @@ class CsvRow(Row):
         first, last = (int(found[1]), int(found[2] or found[1])) if found else (1, 0)
         if not least <= first <= last <= most:
             msg = (
-                f'{key} = "{given}" must be a number or a range such as "{least}-{most}", from '
-                f"the lower to the upper, within {least} to {most}"
+                f'{key} = "{given}" must be a storey or a range, lower to upper, within {least} to '
+                f'{most}: write "{least}-{most}" for all'
             )
             raise self.error(msg)
         return range(first, last + 1)
@@ -93,7 +93,7 @@ def csv_rows(path: Path, needed: Sequence[str], other: Sequence[str] = ()) -> li
         }
         if len(line) > len(names):
             msg = f"{path}, line {number}: has {len(line)} cells, its head {len(names)}"
-            msg += ": look for a comma in a number, which needs semicolons between the cells"
+            msg += ": separate the cells by semicolons if numbers have commas"
             raise ProjectError(msg)
         if cells:
             rows.append(CsvRow(path.name, "", number, cells))
@@ -114,11 +114,11 @@ def _require_heads(
             msg = f'{path}: column "{head}" is not known: {meant}'
             raise ProjectError(msg)
         if names.count(name) > 1:
-            msg = f'{path}: column "{name}" is there twice: keep one of them'
+            msg = f'{path}: column "{name}" occurs twice: keep one of them'
             raise ProjectError(msg)
     for name in needed:
         if name not in names:
-            msg = f'{path}: column "{name}" is missing: the head is {",".join(known)}'
+            msg = f'{path}: column "{name}" is missing: write the head {",".join(known)}'
             raise ProjectError(msg)
 
 
@@ -176,29 +176,32 @@ def _columns(
         name, place = row.text("name"), (row.length("x"), row.length("y"))
         if lines.setdefault(name, place) != place:
             msg = (
-                f'{row.place}: column "{name}" stands at ({place[0]:g}, {place[1]:g}) m here, at '
-                f"({lines[name][0]:g}, {lines[name][1]:g}) m before: a name has one place"
+                f'{row.place}: column "{name}" is at ({place[0]:g}, {place[1]:g}) m here, at '
+                f"({lines[name][0]:g}, {lines[name][1]:g}) m before: write one place for each name"
             )
             raise ProjectError(msg)
         own = sections.of(row, column=True)
         for storey in row.span("storeys", 1, len(given.storey_height)):
             if (name, storey) in parts:
-                msg = f'{row.place}: column "{name}" has two sections in storey {storey}: keep one'
+                msg = (
+                    f'{row.place}: column "{name}" has two sections in storey {storey}: keep one '
+                    "of them"
+                )
                 raise ProjectError(msg)
             parts[name, storey] = ColumnPart(name, storey, own.section, own.up)
     for (one, here), (other, there) in combinations(lines.items(), 2):
         if math.dist(here, there) < _CLOSE:
             msg = (
-                f'{given.columns_table}: columns "{one}" and "{other}" are both at '
-                f"({here[0]:g}, {here[1]:g}) m: use one name for the parts of one column"
+                f'{given.columns_table}: columns "{one}" and "{other}" are both at ({here[0]:g}, '
+                f"{here[1]:g}) m: write one name for all storeys of a column"
             )
             raise ProjectError(msg)
     for name, storey in parts:
         below = [s for n, s in parts if n == name and s < storey]
         if below and storey - 1 not in below:
             msg = (
-                f'{given.columns_table}: column "{name}" is missing in storey {storey - 1}, under '
-                f"its part in storey {storey}: fill the gap"
+                f'{given.columns_table}: column "{name}" is missing in storey {storey - 1}, but '
+                f"has a row for storey {storey}: add a row for storey {storey - 1}"
             )
             raise ProjectError(msg)
     return lines, tuple(parts.values())
@@ -220,15 +223,15 @@ def _beams(
                 msg = f'{row.place}: {given.columns_table} has no column "{end}": {meant}'
                 raise ProjectError(msg)
         if ends[0] == ends[1]:
-            msg = f'{row.place}: the beam begins and ends at "{ends[0]}": give two columns'
+            msg = f'{row.place}: the beam begins and ends at "{ends[0]}": write two columns'
             raise ProjectError(msg)
         own = sections.of(row, column=False)
         for floor in row.span("floors", 0, len(given.storey_height)):
             key = (floor, frozenset(ends))
             if key in found:
                 msg = (
-                    f'{row.place}: there are two beams between "{ends[0]}" and "{ends[1]}" on '
-                    f"floor {floor}: keep one"
+                    f'{row.place}: two beams join "{ends[0]}" and "{ends[1]}" on floor {floor}: '
+                    "keep one of them"
                 )
                 raise ProjectError(msg)
             found[key] = BeamPart("beam", floor, *ends, own.section)

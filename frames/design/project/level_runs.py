@@ -221,6 +221,6 @@ def said_of_runs(parts: ProjectInputs, motions: MotionSet) -> str:
     every = parts.file.analysis.accidental_eccentricity_motions == "all"
     more = len(WAYS) * (count if every else len(levels) * len(bounds))
     return (
-        f"{said}; {more} more with the masses moved by {100.0 * share:g} % of the plan each way, "
-        f"{more / count:.2g} times the time of these{without}"
+        f"{said}; {more} more with the masses moved by {100.0 * share:g} % of the plan in each "
+        f"direction, {more / count:.2g} times the time of these{without}"
     )

@@ -58,9 +58,8 @@ def material_of(given: str | MaterialTable | None) -> Material:
         ratio = modulus / (2.0 * shear) - 1.0
         if not 0.0 <= ratio < 0.5:
             msg = (
-                f"material: E = {1e-9 * modulus:g} GPa and G = {1e-9 * shear:g} GPa give "
-                f"a Poisson's ratio of {ratio:.3g}; it must be at least 0 and below 0.5: "
-                "check G"
+                f"material: E = {1e-9 * modulus:g} GPa and G = {1e-9 * shear:g} GPa give Poisson's "
+                f"ratio {ratio:.3g}, which must be at least 0 and below 0.5: check G"
             )
             raise ProjectError(msg)
         return Material("own material", modulus, shear, ratio, given.density)
@@ -75,8 +74,8 @@ def material_of(given: str | MaterialTable | None) -> Material:
     near = difflib.get_close_matches(given, known, n=1, cutoff=0.5)
     meant = f'is "{near[0]}" meant?' if near else f"choose one of {', '.join(known)}"
     msg = (
-        f'material = "{given}" is not known: {meant} For another one write '
-        '{ E = "30 GPa", nu = 0.2, density = "2500 kg/m3" }'
+        f'material = "{given}" is not known: {meant} For other materials write {{ E = "30 GPa", nu '
+        f'= 0.2, density = "2500 kg/m3" }}'
     )
     raise ProjectError(msg)
 
@@ -159,7 +158,10 @@ def _plastic_moduli(given: SectionTable, *, column: bool) -> tuple[float, float]
         strong = width * flange * (depth - flange) + 0.25 * web * inner**2
         return strong, 0.5 * flange * width**2 + 0.25 * inner * web**2
     if given.box is None and given.rectangle is None:
-        msg = "hinges.yield_stress: properties have no plastic moduli, give moment_y and moment_z"
+        msg = (
+            "hinges.yield_stress needs plastic moduli, and `properties` have none: write "
+            "moment_y and moment_z"
+        )
         raise ProjectError(msg)
     *sides, wall = given.box or (*(given.rectangle or ()), 0.0)
     width, depth = (sides[-1], sides[0]) if column else (sides[0], sides[-1])
@@ -203,7 +205,7 @@ def storeys_of(given: tuple[int, int] | None, count: int) -> range:
     if not 1 <= first <= last <= count:
         msg = (
             f"storeys = [{first}, {last}] must be a range from the lower to the upper storey, "
-            f"within the {count} of the building: [1, {count}] is all"
+            f"within 1 to {count}: write [1, {count}] for all"
         )
         raise ProjectError(msg)
     return range(first, last + 1)
@@ -224,16 +226,16 @@ def by_storey(given: Sequence[T], storeys: int, direction: str | None = None) ->
         for storey in storeys_of(one.storeys, storeys):
             if found[storey - 1] is not None:
                 msg = (
-                    f"storey {storey}{which} has two sections: give each storey one, by "
-                    "storeys = [first, last]" + ("" if direction is None else " and direction")
+                    f"storey {storey}{which} has two sections: limit them by storeys = [first, "
+                    "last]" + ("" if direction is None else " and direction")
                 )
                 raise ProjectError(msg)
             found[storey - 1] = one
     chosen = [one for one in found if one is not None]
     if len(chosen) < storeys:
         msg = (
-            f"storey {found.index(None) + 1}{which} has no section: give one for each of "
-            f"the {storeys} storeys"
+            f"storey {found.index(None) + 1}{which} has no section: write sections for each of the "
+            f"{storeys} storeys"
         )
         raise ProjectError(msg)
     return chosen

@@ -303,7 +303,9 @@ def _of_histories(frame: Frame, case: Case, gap: float) -> list[Check]:
     t = _with_gap(gap)
     reached = case.design("displacement")
     corner = farthest_corner(frame, reached)
-    t.given("D", float(reached.max()), "m", shown="mm", note="of the histories, as the code counts")
+    t.given(
+        "D", float(reached.max()), "m", shown="mm", note="of the histories, by the rule of the code"
+    )
     t.given("gamma_x", case.rules.displacement_factor)
     t.given("c_c", corner.factor, note=corner.note)
     t("D_d", "gamma_x * c_c * D", "m", shown="mm")
@@ -334,21 +336,21 @@ class _Told(NamedTuple):
 def _told_of_walls(frame: Frame, every: xr.Dataset) -> _Told:
     walls = walls_of(frame)
     if walls is None:
-        return _Told("the wall is not modelled: where it is met, its force is in no result", "")
+        return _Told("the wall is not modelled: results have no force of contact with it", "")
     gap, sides = 1e3 * walls.gap, ", ".join(walls.sides)
     which = [str(name) in walls.links for name in every["link"].to_numpy()]
     force = peaks_of_runs(every, "link_force")[:, which].max(axis=1)
     met = force[force > 0.0]
     if not len(met):
         none = worded(
-            "walls at {gap:.5g} mm along {sides} are modelled: none is met in the runs",
+            "walls at {gap:.5g} mm along {sides} are modelled: no contact in the runs",
             gap=gap,
             sides=sides,
         )
         return _Told(none, "")
     model = worded(
-        "walls at {gap:.5g} mm along {sides} are modelled: met in {met} of {runs} runs, by up to "
-        "{force:.4g} kN at a node",
+        "walls at {gap:.5g} mm along {sides} are modelled: contact in {met} of {runs} runs, with "
+        "up to {force:.4g} kN at a node",
         gap=gap,
         sides=sides,
         met=len(met),
@@ -356,8 +358,7 @@ def _told_of_walls(frame: Frame, every: xr.Dataset) -> _Told:
         force=1e-3 * met.max(),
     )
     holds = worded(
-        "the walls that are modelled hold back {met} of {runs} runs, which would go farther "
-        "without them",
+        "the modelled walls limit the displacement of {met} of {runs} runs",
         met=len(met),
         runs=len(force),
     )

@@ -111,8 +111,8 @@ def _refuse_other_devices(frame: Frame) -> None:
             raise ProjectError(msg)
         if math.isinf(link.bearing.lateral_capacity):
             msg = (
-                f"`lir run` supports bearings with rims only, and {name} has capacity = "
-                "inf: give the displacement at rim contact"
+                f"`lir run` supports bearings with rims only, and {name} has capacity = inf: set "
+                "the displacement at rim contact"
             )
             raise ProjectError(msg)
 
@@ -145,8 +145,8 @@ def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:
         }
     except ModelError as cause:
         msg = worded(
-            "[analysis] accidental_eccentricity = {share:g} is left out of the time "
-            'histories: {cause}. Write accidental_eccentricity = "none" to confirm',
+            "time histories omit [analysis] accidental_eccentricity = {share:g}, because {cause}. "
+            'Write accidental_eccentricity = "none" to confirm',
             share=share,
             cause=cause,
         )

@@ -96,7 +96,7 @@ def si(value: object, unit: str, example: str) -> float:
     comma = _COMMA.fullmatch(value) if isinstance(value, str) else None
     if comma:
         written = f"{comma[1]}.{comma[2]} {comma[3]}".strip()
-        msg = f'has a comma: write "{written}" if that is the decimal sign, nothing for thousands'
+        msg = f'has a comma: write "{written}" for decimals, no sign for thousands'
         raise ValueError(msg)
     found = _NUMBER.fullmatch(value) if isinstance(value, str) else None
     if found is None:
@@ -157,7 +157,7 @@ def _written(value: float, unit: str, example: str) -> str:
 
 def _finite(number: float) -> float:
     if not math.isfinite(number):
-        msg = "is not finite: give a number"
+        msg = "is not finite: write a number"
         raise ValueError(msg)
     return number
 
@@ -188,7 +188,7 @@ def quantity(unit: str, example: str = "") -> Any:
 def positive(number: float) -> float:
     """Return a number above zero [-, SI], or raise a ValueError."""
     if not number > 0.0:
-        msg = "must be greater than 0: give its size"
+        msg = "must be greater than 0: write a positive number"
         raise ValueError(msg)
     return number
 
@@ -196,7 +196,7 @@ def positive(number: float) -> float:
 def not_negative(number: float) -> float:
     """Return a number of at least zero [-, SI], or raise a ValueError."""
     if number < 0.0:
-        msg = "must be at least 0: give its size"
+        msg = "must be at least 0: write 0 or a positive number"
         raise ValueError(msg)
     return number
 
@@ -204,8 +204,8 @@ def not_negative(number: float) -> float:
 def part_of_side(number: float) -> float:
     """Return an eccentricity over a side of the plan [-], or raise a ValueError."""
     if abs(number) >= _LARGEST_ECCENTRICITY:
-        meant = f', as "{number:g} %" if per cent are meant' if abs(number) >= 1.0 else ""
-        msg = f"must be between -0.5 and 0.5, a part of the side of the plan: give 0.03{meant}"
+        meant = f', or "{number:g} %" if per cent are meant' if abs(number) >= 1.0 else ""
+        msg = f"must be between -0.5 and 0.5 of the side of the plan: write 0.03{meant}"
         raise ValueError(msg)
     return number
 

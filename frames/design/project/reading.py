@@ -78,7 +78,7 @@ def _loaded(file: Path, hint: str) -> _Read:
         content = file.read_bytes()
         return content, tomllib.loads(content.decode("utf-8").replace("\r\n", "\n"))
     except OSError as cause:
-        msg = f"{_short(file)}: {cause.strerror or cause}: give a file, {hint}"
+        msg = f"{_short(file)}: {cause.strerror or cause}: name an existing file, {hint}"
         raise ProjectError(msg) from cause
     except UnicodeDecodeError as cause:
         msg = f"{file} is not text in UTF-8 ({cause}): save it as UTF-8"
@@ -153,10 +153,10 @@ def _mended(error: str, text: str) -> str:
     line = re.search(r"at line (\d+)", error)
     written = text.splitlines()[int(line[1]) - 1 :][:1] if line else []
     if written and (comma := re.search(r"=\s*(\d+),(\d+)\s*(?:#|$)", written[0])):
-        return f"decimals have a point: {comma[1]}.{comma[2]}"
+        return f"write decimals with a point, {comma[1]}.{comma[2]}"
     if "overwrite" in error or "twice" in error:
-        return "the key or the section is there twice: keep one of them"
-    return 'a line is `key = value`, texts and numbers with a unit in quotes, "250 mm"'
+        return "the key or the section occurs twice: keep one of them"
+    return 'write `key = value`, with texts and numbers with a unit in quotes, "250 mm"'
 
 
 def schema() -> str:
@@ -174,7 +174,7 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
     place = _place(error)
     key, kind = ".".join(place) or "the file", error["type"]
     if kind == "missing":
-        return f"{name}: {key} is missing: give it, {hint}"
+        return f"{name}: {key} is missing: write it, {hint}"
     if kind == "extra_forbidden":
         known = _known(data, error["loc"], whole)
         near = difflib.get_close_matches(place[-1], _lacking(data, place, known), n=1)
@@ -189,11 +189,11 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
         return _of_a_kind(name, key, error)
     if kind in _LISTS:
         given = _short(json.dumps(error["input"], default=str))
-        return f"{name}: {key} = {given} must be a list: [0.8, 1.3]"
+        return f"{name}: {key} = {given} must be a list: write it in brackets, [0.8, 1.3]"
     if kind in _LENGTHS:
         held = error["ctx"].get("max_length", error["ctx"].get("min_length"))
         bound = "at most" if kind == "too_long" else "at least"
-        return f"{name}: {key} has {error['ctx']['actual_length']} entries: give {bound} {held}"
+        return f"{name}: {key} has {error['ctx']['actual_length']} entries: write {bound} {held}"
     if kind in _TABLES and place[-1].isdigit():
         listed = ".".join(place[:-1])
         return f"{name}: {key} must be a table: write [[{listed}]] and its keys below for each"
@@ -225,8 +225,8 @@ def _beyond(error: Any) -> str:
     text = f"must be {_BOUNDS[error['type']]} {bound:g}"
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if number and error["type"].startswith("less") and bound <= 1.0 < value <= 100.0 * bound:
-        return f'{text}: give {value / 100.0:g}, or "{value:g} %" if per cent are meant'
-    return f"{text}: give a number within that bound"
+        return f'{text}: write {value / 100.0:g}, or "{value:g} %" if per cent are meant'
+    return f"{text}: write a number within that bound"
 
 
 def _first_number(given: object) -> str:

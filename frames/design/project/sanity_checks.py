@@ -86,11 +86,11 @@ def _of_bearings(devices: Mapping[str, LIRBearing], equivalent: EquivalentLinear
         yield _Row(
             f"{at} friction", max(law.f_max for law in bearing.frictions), "", 0.01, 0.3, why
         )
-        why = worded("a fifth of the {c:.4g} mm that bearings without rims go", c=1e3 * needed)
+        why = worded("a fifth of the {c:.4g} mm displacement without rims", c=1e3 * needed)
         yield _Row(f"{at} capacity", bearing.lateral_capacity, "m", 0.2 * needed, math.inf, why)
-        why = "the slider's radius: its edge has left the plate before the rim counts as failed"
+        why = "the slider's radius: its edge leaves the plate before the rim fails"
         yield _Row(f"{at} rim_overrun", options["rim_overrun"], "m", 0.0, a, why)
-        why = "the slider's diameter: its halves overlap no more"
+        why = "the slider's diameter: its halves no longer overlap"
         yield _Row(f"{at} slip_capacity", options["slip_capacity"], "m", 0.0, 2.0 * a, why)
         for name in ("yield_displacement", "interface_yield_displacement"):
             why = "sliders begin to slide within some tenths of a millimetre"
@@ -124,7 +124,7 @@ def _of_limits(
             pushed * STANDARD_GRAVITY,
             25.0,
             worded(
-                "the isolation pushes with {share:.3g} of the weight, isolated floors have 1 to 10 "
+                "the isolation transmits {share:.3g} of the weight, isolated floors have 1 to 10 "
                 "m/s2",
                 share=pushed,
             ),
@@ -143,10 +143,10 @@ def _of_devices(
     weight, each = system.seismic_weight, equivalent.bounds.values()
     needed = max(one.allowed_displacement for one in each)
     if file.moat is not None:
-        why = worded("half of the {c:.4g} mm that bearings go without walls", c=1e3 * needed)
+        why = worded("half of the {c:.4g} mm displacement without walls", c=1e3 * needed)
         yield _Row("[moat] gap", file.moat.gap, "m", 0.5 * needed, math.inf, why)
         stiff = max(one.stiffness for one in each)
-        why = "ten times the isolation's stiffness: a wall that soft is none"
+        why = "ten times the isolation's stiffness: such a soft wall has no effect"
         yield _Row("[moat] stiffness", file.moat.stiffness, "N/m", 10.0 * stiff, math.inf, why)
     for name, one in file.dampers.items():
         count = len(one.columns) or 1
@@ -171,7 +171,7 @@ def _without_effect(file: ProjectFile, types: Mapping[str, str]) -> Iterator[str
         given = above is not None and key in above.model_fields_set and getattr(above, key)
         if given and not math.isclose(given, 1.0):
             yield worded(
-                "{key} = {value:g} changes nothing: {code} {instead}; leave it out",
+                "{key} = {value:g} has no effect: {code} {instead}; leave it out",
                 key=f"[superstructure] {key}",
                 value=given,
                 code=code.name,
@@ -227,9 +227,9 @@ def wind_doubts(
         return ()
     return (
         worded(
-            "the isolation slides in wind: [superstructure] wind_shear = {wind:.4g} kN "
-            "exceeds the friction of all bearings at the lower bound, {holds:.4g} kN. "
-            "Raise the friction, add a wind restraint, or check the unit",
+            "the isolation slides in wind: [superstructure] wind_shear = {wind:.4g} kN exceeds "
+            "the least friction of all bearings, {holds:.4g} kN. Raise the friction, add a wind "
+            "restraint, or check the unit",
             wind=1e-3 * wind,
             holds=1e-3 * holds,
         ),
@@ -245,9 +245,9 @@ def _of_sections(file: ProjectFile) -> Iterator[str]:
     if not assumed:
         return
     yield worded(
-        "[structure] {keys}: sections of an example are assumed (`lir check` shows them). "
-        'Give your own, columns = {{ section = "HEB 300" }}, beams = '
-        '{{ rectangle = ["300 mm", "600 mm"], material = "C30/37" }}',
+        "[structure] {keys}: example sections are assumed (see `lir check`). Write your own, "
+        'columns = {{ section = "HEB 300" }}, beams = {{ rectangle = ["300 mm", "600 mm"], '
+        'material = "C30/37" }}',
         keys=anded(assumed),
     )
 
@@ -271,8 +271,8 @@ def _of_masses(file: ProjectFile) -> Iterator[str]:
     for key, value in list(strange.items())[:1]:
         unit = "is a mass in t written as kg?" if value < low else "is a mass in kg written as t?"
         yield worded(
-            "[structure] {key} is {mass:.3g} kg on each m2 of the plan, buildings have 300 to "
-            "1500: {unit} Masses are written with their unit, 300 t or 300000 kg",
+            "[structure] {key} is {mass:.3g} kg/m2 of the plan, buildings have 300 to 1500: "
+            "{unit} Write masses with their unit, 300 t or 300000 kg",
             key=key,
             mass=value,
             unit=unit,
@@ -287,8 +287,8 @@ def _of_heights(file: ProjectFile) -> Iterator[str]:
     for k, height in enumerate(given.heights, start=1):
         if not low <= height <= high:
             yield worded(
-                "[structure] storey_height of storey {storey} is {height:.4g} m, usual are "
-                "{low:g} to {high:g} m: check its unit",
+                "[structure] storey_height of storey {storey} is {height:.4g} m, outside the "
+                "usual {low:g} to {high:g} m: check its unit",
                 storey=k,
                 height=height,
                 low=low,
@@ -346,8 +346,8 @@ def _of_storeys(file: ProjectFile) -> Iterator[str]:
             if period > most:
                 bound = worded("below {bound:.3g} s", bound=most)
             yield worded(
-                "{key} = {stiffness:.4g} kN/mm gives the {mass:.4g} t above a period of "
-                "{period:.3g} s; storeys of buildings stay {bound}: check its unit",
+                "{key} = {stiffness:.4g} kN/mm and the {mass:.4g} t above give a period of "
+                "{period:.3g} s, for storeys usually {bound}: check its unit",
                 key=f"[structure] storey_stiffness[{k}]",
                 stiffness=1e-6 * stiffness,
                 mass=1e-3 * above,
@@ -366,9 +366,9 @@ def _of_importance(file: ProjectFile) -> Iterator[str]:
         return
     share = above.importance / own
     yield worded(
-        "[superstructure] importance = {a:g}, [spectrum] importance = {b:g}: {code} multiplies a_g "
-        "by gamma_I, which only the spectrum's does; if {c:g} is meant, the spectrum is to be "
-        "multiplied by {share:.3g}: give both sections the same",
+        "[superstructure] importance = {a:g}, [spectrum] importance = {b:g}: {code} multiplies "
+        "a_g by gamma_I, and only [spectrum] does. Write one value in both; {c:g} multiplies the "
+        "spectrum by {share:.3g}",
         a=above.importance,
         b=own,
         code=file.project.code,
@@ -383,9 +383,8 @@ def _of_moat(file: ProjectFile) -> Iterator[str]:
     if wall is None or clear is None or clear >= wall.gap or len(set(wall.sides)) < len(SIDES):
         return
     yield worded(
-        "[limits] moat_gap = {clear:.5g} mm, the clear distance that is checked, is less "
-        "than [moat] gap = {gap:.5g} mm of walls all around: if both are one wall, give "
-        "both the same value",
+        "[limits] moat_gap = {clear:.5g} mm, the clear distance checked, is less than [moat] gap "
+        "= {gap:.5g} mm on all sides: write the same value if both are one wall",
         clear=1e3 * clear,
         gap=1e3 * wall.gap,
     )

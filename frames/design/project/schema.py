@@ -63,7 +63,10 @@ def read_points(path: Path) -> Points:
     try:
         lines = csv_lines(path)
     except OSError as cause:
-        msg = f"[spectrum] points = {path.name}: {cause.strerror}: name a CSV file beside the "
+        msg = (
+            f"[spectrum] points = {path.name}: {cause.strerror}: name a CSV file in the folder "
+            "of the "
+        )
         raise ProjectError(msg + "project's") from cause
     except ValueError as cause:
         msg = f"[spectrum] points = {path.name}: {cause}"
@@ -94,7 +97,7 @@ def _unit_of(path: Path, head: list[str]) -> float:
         raise ProjectError(msg)
     unit = names[1][1].lower()
     if unit not in _UNITS:
-        msg = f"{path.name}: accelerations in {names[1][1]}: give them in {', '.join(_UNITS)}"
+        msg = f"{path.name}: accelerations are in {names[1][1]}: write them in {', '.join(_UNITS)}"
         raise ProjectError(msg)
     return _UNITS[unit]
 
@@ -163,7 +166,7 @@ class Pulses(Table):
     def _periods_or_ratios(self) -> Self:
         if bool(self.periods) == bool(self.period_ratios):
             msg = 'needs periods = ["1.5 s", "3 s"], or period_ratios = [0.5, 1], over the period '
-            raise ValueError(msg + "of the sliding bearing; give one of both")
+            raise ValueError(msg + "of the sliding bearing: write one of both")
         return self
 
 
@@ -207,7 +210,7 @@ class MotionSource(Table):
     @classmethod
     def _each_once(cls, given: tuple[Any, ...]) -> tuple[Any, ...]:
         if len({*given}) < len(given):
-            msg = f"= {list(given)} has one twice: leave one out"
+            msg = f"= {list(given)} has a value twice: leave one out"
             raise ValueError(msg)
         return given
 
@@ -222,7 +225,10 @@ class Motions(MotionSource):
     def _pulses_as_they_are(cls, given: object) -> object:
         if isinstance(given, dict) and given.get("pulses"):
             if given.get("scale") == "spectrum":
-                msg = 'scale = "spectrum": pulses are of the velocities given, leave scale out'
+                msg = (
+                    'scale = "spectrum" does not apply to pulses, which have given velocities: '
+                    "leave scale out"
+                )
                 raise ValueError(msg)
             return {"scale": 1.0, **given}
         return given
@@ -232,7 +238,7 @@ class Motions(MotionSource):
     def _scale(cls, scale: object) -> object:
         is_number = isinstance(scale, (int, float)) and not isinstance(scale, bool)
         if scale != "spectrum" and not (is_number and 0.0 < float(str(scale)) < math.inf):
-            msg = 'must be "spectrum", or a factor on the accelerations above 0'
+            msg = 'must be "spectrum" or a positive factor on accelerations: write "spectrum" or 1'
             raise ValueError(msg)
         return scale
 
@@ -257,7 +263,7 @@ class Analysis(Table):
     @classmethod
     def _each_once(cls, names: tuple[str, ...]) -> tuple[str, ...]:
         if len(set(names)) < len(names):
-            msg = 'must name each bound once: ["lower", "nominal", "upper"] are all'
+            msg = 'must have each bound once: write ["lower", "nominal", "upper"] for all'
             raise ValueError(msg)
         return names
 
@@ -266,8 +272,8 @@ class Analysis(Table):
     def _eccentricity(cls, share: float | str | None) -> float | str | None:
         if isinstance(share, float) and not 0.0 <= share <= MOST_ECCENTRIC:
             msg = (
-                f"must be a share of the sides of the plan between 0 and {MOST_ECCENTRIC:g}, such "
-                'as "5 %", or "none"'
+                f"must be a share of the plan's sides between 0 and {MOST_ECCENTRIC:g}, or none: "
+                'write "5 %" or "none"'
             )
             raise ValueError(msg)
         return share
@@ -333,8 +339,8 @@ class ProjectFile(WholeFile):
         above, code = self.superstructure, code_named(self.project.code)
         if above is not None and above.R is None and "R" not in code.unread:
             msg = (
-                f"superstructure.R is missing: {code.name} divides forces by it, R = 2.0; of the "
-                "structure on a fixed base"
+                f"superstructure.R is missing, by which {code.name} divides forces: write R of the "
+                "fixed-base structure, R = 2.0"
             )
             raise ValueError(msg)
         return self

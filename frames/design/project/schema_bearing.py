@@ -50,7 +50,7 @@ class DamperTable(Table):
     def _stand_somewhere(self) -> Self:
         if bool(self.columns) == (self.between is not None):
             msg = (
-                'needs its place: either columns = ["0-0", "3-0"], from the ground to the '
+                'needs its place: write either columns = ["0-0", "3-0"], from the ground to the '
                 'slab above the bearings, or between = ["0-0", "1-0"], in storeys'
             )
             raise ValueError(msg)

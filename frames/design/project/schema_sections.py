@@ -47,7 +47,7 @@ class MaterialTable(Table):
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
         if (self.nu is None) == (self.G is None):
-            msg = "needs one of nu and G: nu = 0.2 of concrete, nu = 0.3 of steel"
+            msg = "needs one of nu and G: write nu = 0.2 for concrete, nu = 0.3 for steel"
             raise ValueError(msg)
         return self
 
@@ -110,16 +110,21 @@ class SectionTable(Table):
     def _one_shape(self) -> Self:
         given = [name for name in SHAPES if getattr(self, name) is not None]
         if len(given) != 1:
-            what = f"has {' and '.join(given)}: give one of them" if given else "has no section"
+            what = f"has {' and '.join(given)}: write one of them" if given else "has no section"
             msg = f'{what}: section = "HEB 300", box = ["400 mm", "25 mm"], ' + (
                 'rectangle = ["500 mm", "700 mm"], circle, i_shape or properties'
             )
             raise ValueError(msg)
         if self.material is None and given[0] in {"rectangle", "circle", "properties"}:
-            msg = f'{given[0]} needs its material: material = "C30/37", or {{ E, nu, density }}'
+            msg = (
+                f'{given[0]} needs its material: write material = "C30/37", or {{ E, nu, density }}'
+            )
             raise ValueError(msg)
         if self.depth_along is not None and given[0] in {"rectangle", "circle"}:
-            msg = f"depth_along does not go with {given[0]}: its sides are along x and along y"
+            msg = (
+                f"depth_along has no effect on {given[0]}, whose sides are along x and y: leave "
+                "it out"
+            )
             raise ValueError(msg)
         return self
 
@@ -135,7 +140,10 @@ class HingesTable(table_of(PlasticHinge)):  # type: ignore[misc]  # its keys are
     def _one_strength(self) -> Self:
         moments = {"moment_y", "moment_z"} & self.model_fields_set
         if (self.yield_stress is None) != bool(moments):
-            msg = 'needs yield_stress = "345 MPa", or moment_y and moment_z = "400 kN m", not both'
+            msg = (
+                'must have either yield_stress = "345 MPa", or moment_y and moment_z = "400 kN '
+                'm": write one of both'
+            )
             raise ValueError(msg)
         return self
 
@@ -154,7 +162,9 @@ class ColumnsTable(SectionTable):
     @model_validator(mode="after")
     def _has_faces(self) -> Self:
         if self.faces and (self.rectangle is None or not self.at):
-            msg = 'faces = true, beams end at the faces, is for rectangles on lines that "at" names'
+            msg = (
+                'faces = true, beams end at the faces, is for rectangles with "at": leave faces out'
+            )
             raise ValueError(msg)
         return self
 
@@ -169,10 +179,13 @@ class BeamsTable(SectionTable):
     @model_validator(mode="after")
     def _lies(self) -> Self:
         if self.depth_along is not None:
-            msg = "depth_along is for columns: the depth of beams is vertical"
+            msg = "depth_along is for columns, and the depth of beams is vertical: leave it out"
             raise ValueError(msg)
         if self.hinges is not None and self.hinges.ends == "foot":
-            msg = 'hinges.ends = "foot" is for columns: beams have hinges at both ends'
+            msg = (
+                'hinges.ends = "foot" is for columns: leave ends out, beams have hinges at both '
+                "ends"
+            )
             raise ValueError(msg)
         return self
 
@@ -183,7 +196,7 @@ class BaseBeamsTable(BeamsTable):
     @model_validator(mode="after")
     def _one_level(self) -> Self:
         if self.storeys is not None:
-            msg = "storeys does not go with base_beams: they lie above the bearings"
+            msg = "storeys is not for base_beams, which are at the base: leave it out"
             raise ValueError(msg)
         return self
 
@@ -198,7 +211,7 @@ class BraceTable(SectionTable):
     @model_validator(mode="after")
     def _lies(self) -> Self:
         if self.depth_along is not None:
-            msg = "depth_along is for columns: rods carry axial force alone"
+            msg = "depth_along is for columns, and rods have axial force alone: leave it out"
             raise ValueError(msg)
         return self
 

@@ -68,7 +68,7 @@ class BuildingTable(Table):
     def _no_pressure(cls, given: object) -> object:
         if isinstance(given, str) and _PRESSURE.search(given):
             msg = (
-                'is a pressure, and floor_load a mass, "450 kg/m2": give pressures under [loads], '
+                'is a pressure, and floor_load a mass, "450 kg/m2": write pressures in [loads], '
                 'dead = "4.5 kN/m2"'
             )
             raise ValueError(msg)
@@ -97,7 +97,7 @@ class MomentFrame(BuildingTable):
     def _one_height_each(self) -> Self:
         if len(self.heights) != self.storeys:
             msg = (
-                f"storey_height has {len(self.heights)} heights for {self.storeys} storeys: give "
+                f"storey_height has {len(self.heights)} heights for {self.storeys} storeys: write "
                 "one for all, or one for each"
             )
             raise ValueError(msg)
@@ -126,8 +126,8 @@ class IrregularFrame(BuildingTable):
     def _is_no_result(cls, given: Path) -> Path:
         if given.name.lower() in RESULT_FILES:  # would be written over, on any system
             msg = (
-                "has the name of a file of the results, among which the table is kept: give it "
-                "another name"
+                "must not have the name of a file of the results, which are in the same folder: "
+                "rename it"
             )
             raise ValueError(msg)
         return given
@@ -137,8 +137,8 @@ class IrregularFrame(BuildingTable):
         one, other = self.columns_table, self.beams_table
         if one != other and one.name.lower() == other.name.lower():
             msg = (
-                f"columns_table and beams_table are both named {one.name}, but the results "
-                "keep them in one folder: rename one"
+                f"columns_table and beams_table are both named {one.name}, and are copied to one "
+                "folder of results: rename one"
             )
             raise ValueError(msg)
         return self
@@ -161,7 +161,7 @@ class ShearBuilding(Table):
         if len(self.storey_mass) != len(self.storey_stiffness):
             msg = (
                 f"storey_mass has {len(self.storey_mass)} entries, storey_stiffness "
-                f"{len(self.storey_stiffness)}: give one of each for every storey"
+                f"{len(self.storey_stiffness)}: write one of each for every storey"
             )
             raise ValueError(msg)
         return self
@@ -206,8 +206,8 @@ class ImportedModel(Table):
         for word, given in (("sections", self.sections), ("library", self.library)):
             if given and self.kind != "etabs":
                 msg = (
-                    f"{word} is for ETABS files, which may lack constants of sections; SAP2000 "
-                    "files have them"
+                    f"{word} is for ETABS files without section constants, and SAP2000 files have "
+                    "them: leave it out"
                 )
                 raise ValueError(msg)
         return self

@@ -53,8 +53,8 @@ class RunningScript:
         whole = script.resolve()
         if not ANYWHERE.get() and not whole.is_relative_to(folder.resolve()):
             msg = (
-                f"{key} = {whole} lies outside of the project's folder: copy it there; or, if you "
-                "trust it, write `lir --scripts-from-anywhere` and then the command"
+                f"{key} = {whole} is outside of the project's folder: copy it there, or, if you "
+                "trust it, write `lir --scripts-from-anywhere` before the command"
             )
             raise ProjectError(msg)
         self._script, self._key, self._before = script, key, Path.cwd()
@@ -173,7 +173,7 @@ class SourceFiles:
     def require_unchanged(self) -> None:
         """Raise a ProjectError if files have changed since they were read."""
         if found := self.changed():
-            msg = f"{found[0].split(': ')[0]}, before anything was run: give the command again"
+            msg = f"{found[0].split(': ')[0]}, before any run: run the command again"
             raise ProjectError(msg)
 
 

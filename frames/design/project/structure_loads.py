@@ -56,12 +56,12 @@ class LoadsTable(Table):
     def _weighs(self) -> Self:
         if not self.dead and not self.roof.dead:
             msg = (
-                "dead must be above 0, because floors weigh more than their members: dead = "
+                "dead must be above 0, because floors weigh more than their members: write dead = "
                 '"3.5 kN/m2"'
             )
             raise ValueError(msg)
         if self.mass is not None and self.mass.dead <= 0.0:
-            msg = "mass: dead must be greater than 0: 1.0 counts all of the dead load"
+            msg = "mass: dead must be greater than 0: write dead = 1.0 for the whole dead load"
             raise ValueError(msg)
         return self
 
@@ -118,7 +118,10 @@ def load_floors(
     for level, found in enumerate(levels):
         name = level_name(level)
         if not found.corners:
-            msg = f"{name}: its beams enclose no field that a load could lie on: add some around it"
+            msg = (
+                f"{name} cannot carry floor loads, because its beams enclose no area: add beams "
+                "around it"
+            )
             raise ModelError(msg)
         above = [_outline(points, each) for other in levels[level + 1 :] for each in other.corners]
         for k, corners in enumerate(found.corners):

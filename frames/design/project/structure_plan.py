@@ -80,10 +80,10 @@ def _require_lines(plan: BuildingPlan, between: tuple[str, str]) -> None:
     for line in between:
         if line not in plan.lines:
             known = ", ".join(f'"{each}"' for each in list(plan.lines)[:6])
-            msg = f'there is no column "{line}": the first are {known}'
+            msg = f'there is no column "{line}": choose one of {known} and so on'
             raise ProjectError(msg)
     if between[0] == between[1]:
-        msg = f'between = "{between[0]}" twice: name two columns'
+        msg = f'between has "{between[0]}" twice: write two different columns'
         raise ProjectError(msg)
 
 
@@ -165,11 +165,11 @@ def _special(
     for one in tables:
         for line in one.at:
             if line not in lines:
-                msg = f'at = "{line}" is no column: they are "{lines[0]}" to "{lines[-1]}"'
+                msg = f'at = "{line}" is no column: choose from "{lines[0]}" to "{lines[-1]}"'
                 raise ProjectError(msg)
             for storey in storeys_of(one.storeys, given.storeys):
                 if (line, storey) in found:
-                    msg = f'storey {storey} of column "{line}" has two sections: give it one'
+                    msg = f'storey {storey} of column "{line}" has two sections: keep one of them'
                     raise ProjectError(msg)
                 found[line, storey] = one
     return found
@@ -304,7 +304,7 @@ def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads 
         raise ProjectError(msg)
     if given.floor_load is None and loads is None:
         msg = (
-            "[structure] floor_load is missing: give the mass of the floors, "
-            'floor_load = "450 kg/m2", or the section [loads] with dead = "4.5 kN/m2"'
+            '[structure] floor_load is missing: write the mass of the floors, floor_load = "450 '
+            'kg/m2", or the section [loads] with dead = "4.5 kN/m2"'
         )
         raise ProjectError(msg)

@@ -157,7 +157,7 @@ def _loads(file: ProjectFile, given: LoadsTable, spectrum: Spectrum | None) -> R
         rows.append(("facade, along the outer edges", f"{1e-3 * given.facade:.4g} kN/m"))
     found = loads_of(given, rule)
     mass = {} if found is None else found.mass
-    source = rule.cited if given.mass is None else "as the file says"
+    source = rule.cited if given.mass is None else "as in the file"
     counted = worded("members, {sum} ({source})", sum=_sum(mass), source=source)
     rows.append(("seismic mass", counted))
     for name, factors in rule.combined(spectrum).items():
@@ -211,7 +211,7 @@ def _walls_and_braces(given: BuildingTable) -> Rows:
     for what, kind in (("floors", given.floor_diaphragm), ("base", given.base_diaphragm)):
         if kind == "flexible":
             title = worded("diaphragm of {what}", what=what)
-            rows.append((title, "none: beams alone hold it in plan"))
+            rows.append((title, "none: beams alone connect the floor in plan"))
     return rows
 
 

@@ -74,7 +74,7 @@ def _verdict(found: Comparison, level: str) -> Verdict:
     details = _of_runs(counts)
     if void:
         details += [f"{device}, no values for design: {why}." for device, why in void.items()]
-        details.append("The numbers of such runs are what they reached until they stopped.")
+        details.append("Values of these runs are the largest before they stopped.")
         better = None if len(void) == 2 else PLAIN in void
         return Verdict(level, _head_of_failures(counts, void), better, tuple(details))
     lower, higher, alike = _sorted(ours, plain)
@@ -83,13 +83,13 @@ def _verdict(found: Comparison, level: str) -> Verdict:
             listed = "; ".join(_numbers(name, ours, plain) for name in names)
             details.append(f"With the {OURS} {words}: {listed}.")
     if alike:
-        details.append(f"Alike within {100.0 * ALIKE:g} %: {', '.join(alike)}.")
+        details.append(f"Equal within {100.0 * ALIKE:g} %: {', '.join(alike)}.")
     if price := _price(ours):
         details.append(price)
     if not any(each.met for each in counts.values()):
         text = (
-            f"No run meets a restraining rim. There the two devices move alike, and the {OURS} "
-            f"gains nothing under these motions: a plain {PLAIN} does the same with fewer parts."
+            "No run reaches a restraining rim. The two devices behave equally under these "
+            f"motions, and a plain {PLAIN} has fewer parts than the {OURS}."
         )
         return Verdict(level, text, False, tuple(details))
     head, is_ours = _head(lower, higher)
@@ -99,29 +99,35 @@ def _verdict(found: Comparison, level: str) -> Verdict:
 def _head(lower: list[str], higher: list[str]) -> tuple[str, bool | None]:
     under = "Under these motions"
     if lower and not higher:
-        return f"{under} the {OURS} asks for less, or as much, in all that decides.", True
+        return (
+            f"{under} no governing demand is higher with the {OURS}, and at least one is lower.",
+            True,
+        )
     if higher and not lower:
-        text = f"{under} the plain {PLAIN} is the better device: it asks for less, or as much"
-        return f"{text}, in all that decides, and its slider is whole.", False
+        text = f"{under} the plain {PLAIN} is the better device: no governing demand is higher"
+        return f"{text}, and its slider has no interface to maintain.", False
     if not lower:
-        return f"{under} the two devices ask for the same; the plain {PLAIN} is simpler.", False
+        return (
+            f"{under} the demands of both devices are equal; the plain {PLAIN} is simpler.",
+            False,
+        )
     text = (
-        f"Neither is better in all: with the {OURS} {_joined(lower)} {_are(lower)} lower, "
-        f"{_joined(higher)} {_are(higher)} higher. Which counts more is for the designer to say."
+        f"Neither device is better in every demand: with the {OURS} {_joined(lower)} {_are(lower)} "
+        f"lower, {_joined(higher)} {_are(higher)} higher. The designer decides which counts more."
     )
     return text, None
 
 
 def _head_of_failures(counts: Mapping[str, RunCounts], void: Mapping[str, str]) -> str:
     if len(void) == 2:
-        return "No verdict: the runs of neither device give values for design."
+        return "No verdict: neither device has values for design."
     device = next(iter(void))
     runs, _, stopped, _ = counts[device]
     why = f"{stopped} of its {runs} runs stopped" if stopped else "its runs may not count"
     other = PLAIN if device == OURS else OURS
     return (
-        f"Only the {other} has values for design: of the {device} {why}. As it stands the {device} "
-        "is not shown to bear these motions."
+        f"Only the {other} has values for design: of the {device} {why}. The {device} is not shown "
+        "to withstand these motions."
     )
 
 
@@ -157,14 +163,14 @@ def _price(ours: pd.DataFrame) -> str:
         return ""
     rest = "" if math.isnan(stays) else f", of which {_shown(PRICE[1], stays, 'm')} stay"
     return (
-        f"Its price: the interface slips by {_shown(PRICE[0], slip, 'm')}{rest}; the sliders are "
-        "to be inspected and re-centred after the earthquake."
+        f"In return the interface slips by {_shown(PRICE[0], slip, 'm')}{rest}; inspect and "
+        "re-centre the sliders after the earthquake."
     )
 
 
 def _of_runs(counts: Mapping[str, RunCounts]) -> list[str]:
     met = (f"with the {name} in {each.met} of {each.runs}" for name, each in counts.items())
-    found = [f"Restraining rims are met {', '.join(met)} runs."]
+    found = [f"Rim contact occurs {', '.join(met)} runs."]
     for name, each in counts.items():
         if each.stopped:
             found.append(
@@ -173,7 +179,7 @@ def _of_runs(counts: Mapping[str, RunCounts]) -> list[str]:
         if each.doubtful:
             found.append(
                 f"Of the {name} {each.doubtful} of {each.runs} runs have a warning of the check of "
-                "modelling assumptions: their numbers may be wrong, and lir run says in what."
+                "modelling assumptions: their values may be wrong; see the report of `lir run`."
             )
     return found
 

@@ -176,7 +176,7 @@ def profiles_figure(run: ProjectRun) -> Figure | None:
         _profile(panel, case, ps.PALETTE[k])
         ps.caption(panel, x="storey drift ratio [%]", title=case.bound or "runs")
     panels[0].set_xlim(left=0.0)
-    title = "Storey drift of all motions, and what counts of it"
+    title = "Storey drift of all motions, and the value for design"
     usable = all(case.suite.is_usable for case in cases)
     ps.add_legend(figure, [], title=title if usable else VOID_TITLE)
     return figure
@@ -273,7 +273,7 @@ def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
         ],
         "motions": [
             (
-                "Spectra of the motions as they were run, and the design spectrum",
+                "Spectra of the scaled motions, and the design spectrum",
                 lambda: motion_spectra(run.motions, run.spectrum),
             ),
         ],

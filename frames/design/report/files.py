@@ -95,7 +95,10 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> tuple[Runs, xr.Da
     facts = folder / "run.json"
     if not facts.is_file():
         partly = (folder / UNFINISHED).is_dir()
-        msg = f"{folder} holds {'an interrupted run' if partly else 'no run'}: `lir run` makes one"
+        msg = (
+            f"{folder} has {'an interrupted run' if partly else 'no run'}: run `lir run` to "
+            "the end"
+        )
         raise ProjectError(msg)
     kept = _read_facts(facts)
     was = kept["inputs"]
@@ -111,13 +114,13 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> tuple[Runs, xr.Da
         runs = Runs(*_read(folder, kept))
         governing = load(folder / "governing.nc")
     except (OSError, RuntimeError) as cause:  # the latter of HDF5, on a damaged part
-        msg = f"{folder}: {cause}: `lir run` writes all files anew"
+        msg = f"{folder}: {cause}: run `lir run` again"
         raise ProjectError(msg) from cause
     if any("peak_reaction_force" not in data for data in runs.parts):
         version = kept["lir_dcfp_version"]
         msg = (
-            f"the time histories in {folder} were made by a version ({version}) that kept no "
-            "forces of members and bearings: `lir run` makes new ones"
+            f"the time histories in {folder} are of version {version} and have no forces of "
+            "members and bearings: run `lir run` again"
         )
         raise ProjectError(msg)
     return runs, governing
@@ -129,10 +132,10 @@ def _read_facts(path: Path) -> dict[str, Any]:
         kept = json.loads(path.read_text(encoding="utf-8"))
         parts = kept["inputs"], kept["runs"], kept["lir_dcfp_version"], kept["governing_case"]
     except (OSError, ValueError, LookupError, TypeError, RecursionError) as cause:
-        msg = f"{path} is damaged ({type(cause).__name__}: {cause}): `lir run` writes it anew"
+        msg = f"{path} is damaged ({type(cause).__name__}: {cause}): run `lir run` again"
         raise ProjectError(msg) from cause
     if not isinstance(parts[0], dict) or not isinstance(parts[1], dict):
-        msg = f"{path} is damaged: `lir run` writes it anew"
+        msg = f"{path} is damaged: run `lir run` again"
         raise ProjectError(msg)
     return dict(kept)
 
@@ -141,7 +144,7 @@ def _require_unchanged(folder: Path, digests: Mapping[str, str]) -> None:
     # Each file of time histories must be as it was written.
     for name, digest in digests.items():
         if _digest(folder / name) != digest:
-            msg = f"{name} is not as it was written: its SHA-256 is not the one in run.json"
+            msg = f"{name} was changed after the run: its SHA-256 is not the one in run.json"
             raise OSError(msg)
 
 
@@ -222,16 +225,16 @@ def read_checks(folder: Path) -> Checks:
     """Return the checks that ``checks.csv`` holds, without their calculations."""
     path = folder / "checks.csv"
     if not path.is_file():
-        msg = f"{path} is missing: `lir report` writes it from the histories of the run"
+        msg = f"{path} is missing: run `lir report` to write it again"
         raise ProjectError(msg)
     try:
         table = pd.read_csv(path, dtype=dict.fromkeys(_TEXTS, str), keep_default_na=False)
     except (OSError, ValueError) as cause:
-        msg = f"{path} cannot be read ({cause}): `lir report` writes it anew"
+        msg = f"{path} cannot be read ({cause}): run `lir report` to write it again"
         raise ProjectError(msg) from cause
     missing = sorted({*_TEXTS, *_NUMBERS, "verdict"} - {*map(str, table.columns)})
     if missing:
-        msg = f"{path} has no column {', '.join(missing)}: `lir report` writes it anew"
+        msg = f"{path} has no column {', '.join(missing)}: run `lir report` to write it again"
         raise ProjectError(msg)
     return Checks(_check(row) for row in table.to_dict("records"))
 
@@ -285,8 +288,8 @@ def print_report(page: Path, paper: Path) -> Path:
                 return paper
             numbers = found
     msg = (
-        f"{page}: after {PASSES} prints the contents still name other pages than the PDF has: "
-        "print the page from a browser instead"
+        f"{page}: page numbers of the contents are still wrong after {PASSES} prints: print the "
+        "page from a browser"
     )
     raise ProjectError(msg)
 
@@ -310,8 +313,8 @@ def _browser() -> str:
         if found := shutil.which(name):
             return found
     msg = (
-        f"no browser is found on PATH that prints ({', '.join(BROWSERS)}): install Chromium, or "
-        "print report.html from any browser"
+        f"no browser that prints is on PATH ({', '.join(BROWSERS)}): install Chromium, or print "
+        "report.html from any browser"
     )
     raise ProjectError(msg)
 

@@ -45,7 +45,7 @@ class Words:
 
     def __init__(self, language: str = "en", decimal: str = ".", names: Iterable[str] = ()) -> None:
         if language not in LANGUAGES:
-            msg = f"language = {language!r} is not one of reports: choose one of {LANGUAGES}"
+            msg = f"language = {language!r} is not a language of reports: choose one of {LANGUAGES}"
             raise ProjectError(msg)
         self.language, self.decimal = language, decimal
         self.missing: set[str] = set()

@@ -349,16 +349,17 @@ def eccentricity_said(run: ProjectRun) -> str:
         if not asked_for:
             return "Accidental eccentricity is not in these demands."
         return worded(
-            "Accidental eccentricity is not in these demands; {clause} asks {share:g} % of the "
-            "plan's sides.",
+            "Accidental eccentricity is not in these demands; {clause} requires {share:g} % of "
+            "the plan's sides.",
             clause=clause,
             share=100.0 * asked.accidental_eccentricity,
         )
     return worded(
         "Accidental eccentricity ({clause}): the masses of all floors moved by {share:g} % of the "
-        "plan's sides each way, {n} time histories more in {s:.3g} s. The factor of the way that "
-        "is worst multiplies what the suite gives; slip, rim force, eccentricity of the sliders' "
-        "resultant and lost axial force, which begin at a threshold, grow by the difference.",
+        "plan's sides in each direction, {n} more time histories in {s:.3g} s. The factor of the "
+        "most unfavourable direction multiplies the results of the suite. Slip, rim force, "
+        "eccentricity of the sliders' resultant and lost axial force begin at a threshold, and "
+        "grow by the difference.",
         clause=clause,
         share=share,
         n=len(moved),

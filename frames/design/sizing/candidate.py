@@ -45,7 +45,7 @@ def grouped(
     Shapes: least and result (n_bearings,).
     """
     if sizes < 1:
-        msg = f"sizes = {sizes}: give a number of sliders, at least 1"
+        msg = f"sizes = {sizes}: give the number of slider sizes, at least 1"
         raise CheckError(msg)
     columns = list(zip(system.loads, *system.combinations.values(), strict=True))
     largest = [max(column) for column in columns]
@@ -177,10 +177,10 @@ class Candidate:
     def warnings(self) -> tuple[str, ...]:
         """Warnings without a check, for the liner's maker: sliders under low pressure."""
         return tuple(
-            f"sliders of {2e3 * bearing.slider_radius:.0f} mm diameter work at "
-            f"{typical / 1e6:.3g} MPa ({least / 1e6:.3g} to {most / 1e6:.3g} MPa) under the "
-            f"average combination, below least_pressure = {self.least_pressure / 1e6:.3g} MPa: "
-            "friction of PTFE-type liners rises there, and is hardly tested"
+            "friction of PTFE-type liners may be higher than assumed: sliders of "
+            f"{2e3 * bearing.slider_radius:.0f} mm diameter have {typical / 1e6:.3g} MPa "
+            f"({least / 1e6:.3g} to {most / 1e6:.3g} MPa, average combination), below "
+            f"least_pressure = {self.least_pressure / 1e6:.3g} MPa; ask the liner's maker"
             for bearing, (least, typical, most) in zip(self.bearings, self.pressures, strict=True)
             if typical < self.least_pressure
         )

@@ -152,7 +152,9 @@ def _impossible(
         analysis=analysis,
         checks=Checks(),
         trace=t,
-        lacks=(f"the plates reach {t.value('e_plate'):.3g} m from their middle: too deep a bowl",),
+        lacks=(
+            f"the plates have a radius of {t.value('e_plate'):.3g} m, too large for their depth",
+        ),
         groups=parted[1],
         governing=Governing("too deep a bowl", t.value("e_plate") / (LARGEST_SINE * radius)),
         least_pressure=target.least_pressure,
@@ -243,9 +245,9 @@ def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget, aske
         t("U_cap", "r * D", "m", shown="mm", source=source)
     else:
         held = [c.demand for c in analysis.checks if c.unit == "m" and math.isinf(c.limit)]
-        note = "largest that the code's checks hold against rims"
+        note = "largest displacement in the code's checks of rim contact"
         t.given("D_held", max(held, default=t.value("D")), "m", shown="mm", note=note)
-        t.given("m_r", target.free_margin, note="margin of rims that are not met")
+        t.given("m_r", target.free_margin, note="margin without rim contact")
         t("U_cap", "m_r * max(D, D_held)", "m", shown="mm", source=source)
         t("r", "U_cap / D", note="share of D at which the rims are met")
     if t.value("r") < 1.0:
@@ -254,7 +256,7 @@ def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget, aske
             t.given("m_s", target.slip_margin, note="margin of the slip")
             formula = "m_s * (D - U_cap)"
     else:
-        t.given("r_s", target.slip_reserve, note="reserve, rims not being met")
+        t.given("r_s", target.slip_reserve, note="reserve without rim contact")
         formula, note = "r_s * D", "reserve of the interface"
     if asked.slip > 0.0:
         t.given("s_TH", asked.slip, "m", shown="mm", note="slip of time histories")

@@ -68,7 +68,7 @@ def design_candidates(
     chosen = found.chosen if isinstance(found, Design) else None
     candidates = found.candidates if isinstance(found, Design) else tuple(found)
     if not candidates:
-        msg = "there are no candidates: give a Design, or the candidates of a NoCandidateError"
+        msg = "candidates is empty: give a Design, or the candidates of a NoCandidateError"
         raise CheckError(msg)
     places = placed(candidates, chosen)
     looks = _looks(candidates)
@@ -112,7 +112,7 @@ def tried_candidates(tried: pd.DataFrame) -> Figure:
     In the how-to: "Bearings proposed: `lir design`" (docs/sizing.md).
     """
     if not len(tried):
-        msg = "there are no rows: give those of front.csv"
+        msg = "rows is empty: give the rows of front.csv"
         raise CheckError(msg)
     over = {name: unit for name, unit in _AIMS.items() if name in tried}
     names = tried["limited by"].tolist()
@@ -204,7 +204,7 @@ def _handles(places: Sequence[Place], looks: dict[str, tuple[str, str]]) -> list
     ]
     open_: dict[str, Any] = {"marker": "o", "markerfacecolor": "none", "color": ps.GREY, **point}
     if any(place.candidate.lacks for place in places):
-        found.append(Line2D([], [], label="open: falls out", **open_))
+        found.append(Line2D([], [], label="open: rejected", **open_))
     if any(place.candidate.warnings for place in places):
         cross = open_ | {"marker": "x", "color": "black", "markersize": 4.0}
         found.append(Line2D([], [], label="cross: liners under low pressure", **cross))

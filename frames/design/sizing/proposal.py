@@ -224,7 +224,7 @@ class Design:
         Returns
         -------
         pandas.DataFrame
-            Outcome ("proposed", "Pareto-optimal", "keeps what is asked" or "falls out"), Pareto
+            Outcome ("proposed", "Pareto-optimal", "meets the target" or "rejected"), Pareto
             optimality in displacement, base shear and plate diameter, its numbers, the governing
             limit, unmet requirements, and warnings.
         """

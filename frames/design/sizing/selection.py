@@ -71,15 +71,15 @@ class NoCandidateError(CheckError):
         if candidates:
             near = min(candidates, key=lambda one: (len(one.lacks), one.governing.ratio))
             said += (
-                f"; nearest: radius {near.radius:g} m, friction {near.friction.f_max:g}, where "
+                f"; nearest: radius {near.radius:g} m, friction {near.friction.f_max:g}: "
                 f"{_by_reason(near.lacks)}. "
             )
             if all(NOT_EVALUATED in one for one in near.lacks):
-                said += "No bearing mends this: mend the model"
+                said += "No bearing changes this: correct the model"
             else:
                 said += (
-                    "Offer other radii and frictions, rims at a larger share of the displacement "
-                    "(rim_share), or narrower bounds of the interface friction"
+                    "Add radii and frictions, raise rim_share, or narrow the bounds of the "
+                    "interface friction"
                 )
         else:
             first = impossible[0]
@@ -106,8 +106,8 @@ class Place(NamedTuple):
     candidate: Candidate  # which
     # "proposed", "Pareto-optimal" (no other that meets the target has less displacement, base shear
     # and plate diameter at once, or is as good in some and better in another), "keeps what is
-    # asked", or "falls out"
-    outcome: Literal["proposed", "Pareto-optimal", "keeps what is asked", "falls out"]
+    # asked", or "rejected"
+    outcome: Literal["proposed", "Pareto-optimal", "meets the target", "rejected"]
 
 
 def ranked(found: Sequence[Candidate], least: str) -> tuple[Candidate, ...]:
@@ -137,13 +137,13 @@ def placed(found: Sequence[Candidate], chosen: Candidate | None) -> tuple[Place,
     return tuple(
         Place(
             one,
-            "falls out"
+            "rejected"
             if one.lacks
             else "proposed"
             if one is chosen
             else "Pareto-optimal"
             if id(one) in best
-            else "keeps what is asked",
+            else "meets the target",
         )
         for one in found
     )

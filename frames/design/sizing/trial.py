@@ -78,7 +78,7 @@ class Excess(NamedTuple):
         """Return it in words."""
         return (
             f"the mean spectrum of the motions is {self.ratio:.2f} times the target at "
-            f"{self.period:.2f} s, the rule asks for {self.asked:.2f}"
+            f"{self.period:.2f} s, and the rule requires {self.asked:.2f}"
         )
 
 
@@ -140,8 +140,8 @@ class Trial(NamedTuple):
     def __str__(self) -> str:
         """Return the outcome in words."""
         said = (
-            f"without rims it goes {1e3 * self.free:.0f} mm, torsion as by the formula, which "
-            f"gives {1e3 * self.tried.displacement:.0f} mm; {self.excess}\n"
+            f"displacement without rims {1e3 * self.free:.0f} mm with torsion, by the formula "
+            f"{1e3 * self.tried.displacement:.0f} mm; {self.excess}\n"
         )
         if self.sized is not self.tried:
             ways = {"capacity": "U_cap", "slip": "s", "slider radius": "a"}
@@ -156,7 +156,7 @@ class Trial(NamedTuple):
             said += f"{failed} of {runs} runs fail at {factor:g} times the motions; "
         said = said.removesuffix("; ")
         if self.larger_lacks:
-            said += f"\nlarger it falls out: {'; '.join(self.larger_lacks)}"
+            said += f"\na larger one is rejected: {'; '.join(self.larger_lacks)}"
         return said
 
 

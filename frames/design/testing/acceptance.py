@@ -69,7 +69,7 @@ class AcceptanceLimits:
         check_numbers(self, error=CheckError)
         least, most = self.stiffness
         if not 0.0 < least <= 1.0 <= most:
-            msg = f"stiffness = {self.stiffness}: give a range around 1, (0.85, 1.15) is usual"
+            msg = f"stiffness = {self.stiffness}: give a range around 1, usually (0.85, 1.15)"
             raise CheckError(msg)
 
 
@@ -215,7 +215,10 @@ class _Set:
 
     def of_interface(self) -> list[Check]:
         if not isinstance(self.bearing, LIRBearing) or self.bearing.is_dcfp:
-            msg = f"test {self.name!r} is of the interface: the bearing has none"
+            msg = (
+                f"test {self.name!r} is of the interface, and the bearing has none: leave the "
+                "test out"
+            )
             raise CheckError(msg)
         _, judge = self._begin(PROJECT)
         factors = self.bounds.interface_factors

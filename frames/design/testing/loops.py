@@ -91,7 +91,7 @@ class PrototypeTest:
         for name, values in (("displacement", moved), ("force", force), ("load", load)):
             if not np.isfinite(values).all():
                 k = int(np.flatnonzero(~np.isfinite(values))[0])
-                msg = f"{where}: {name} is {values[k]} at sample {k}: leave such samples out"
+                msg = f"{where}: {name} is {values[k]} at sample {k}: leave these samples out"
                 raise CheckError(msg)
         if not load.min() > 0.0:
             msg = f"{where}: a load of {load.min():g} N: give compression as positive, in N"
@@ -227,8 +227,8 @@ def _cycles_of(
     if not found:
         msg = (
             f"test {test.name!r}: no full cycle about zero in {len(moved)} samples from "
-            f"{1e3 * moved.min():.4g} to {1e3 * moved.max():.4g} mm: give displacement about the "
-            "centre, in m, from zero to both sides and back"
+            f"{1e3 * moved.min():.4g} to {1e3 * moved.max():.4g} mm: give the displacement from "
+            "the centre [m], from zero to both sides and back"
         )
         raise CheckError(msg)
     return found
@@ -275,7 +275,8 @@ def _line(
     if fewest < _FEWEST:
         msg = (
             f"test {test.name!r}: {fewest} samples in a part of a half cycle up to "
-            f"{1e3 * abs(moved[end]):.4g} mm, at least {_FEWEST} are needed: give the loop finer"
+            f"{1e3 * abs(moved[end]):.4g} mm, at least {_FEWEST} are needed: use a higher sampling "
+            "rate"
         )
         raise CheckError(msg)
     slope = float(np.polyfit(d[middle], f[middle], 1)[0])

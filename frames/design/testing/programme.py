@@ -246,7 +246,8 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
                 load,
                 3.0,
                 at,
-                "friction of the interface: what holds it, and limits the impact",
+                "friction of the interface: prevents slip before rim contact, and limits the "
+                "impact force",
                 PROPOSED_LIMIT,
                 alone=True,
             )
@@ -257,7 +258,7 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
             load,
             3.0,
             speed,
-            "rims met, interface slips and comes back; residual slip, liner and rims looked at",
+            "rim contact, interface slips and comes back; residual slip, liner and rims inspected",
             PROPOSED_LIMIT,
         )
     moved = min(d.result.displacement, 0.9 * rim)
@@ -267,7 +268,7 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
         d.average,
         3.0,
         slow,
-        "the interface holds again: loop as before",
+        "the interface does not slip: loop as before",
         PROPOSED_LIMIT,
     )
 
