@@ -130,7 +130,7 @@ def check(file: File = FILE) -> None:
         _checks("Equivalent-linear analysis, rims left out", ground.checks)
         _provisions(provisions_of(parts, ground, (), is_run=False))
         _say_each(from_memory(parts.code()))
-        say(f"the file is complete; next: lir run {file} ({said_of_runs(parts, ground.motions)})")
+        say(f"the file can be run: lir run {file} ({said_of_runs(parts, ground.motions)})")
         if not ground.checks.passed:
             raise typer.Exit(FAILED_CHECKS)
 

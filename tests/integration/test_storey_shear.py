@@ -174,5 +174,5 @@ def test_without_its_analysis_there_is_no_least_shear(frame: Frame, runs: xr.Dat
 
 
 def test_results_without_storey_shears_are_refused(frame: Frame, runs: xr.Dataset) -> None:
-    with pytest.raises(CheckError, match="compute them anew"):
+    with pytest.raises(CheckError, match="run them again"):
         least_shear(frame, runs.drop_vars("peak_storey_shear"), linear(frame))

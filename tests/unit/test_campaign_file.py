@@ -102,7 +102,7 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
         ('"artificial-1"', '"artificial-99"', "artificial-99"),
         ("1.0, 1.5", "1.0, 0.0", "scale of a motion must not be 0"),
         ("[sample]", "[samples]", "samples is not known"),
-        ('folder = "motions"', PULSES.replace("]}", '], periods = ["3 s"]}'), "give one of both"),
+        ('folder = "motions"', PULSES.replace("]}", '], periods = ["3 s"]}'), "write one of both"),
         ('folder = "motions"', PULSES, "pulses, which their velocities scale"),
         ('folder = "motions"', f'folder = "motions"\n{PULSES}', "needs one source"),
         ("scales", "turned = [0, 0]\nscales", "has one twice"),

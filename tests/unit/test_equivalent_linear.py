@@ -538,7 +538,7 @@ def test_least_shear_of_nch433(plateau: float, factor: tuple[float, float, float
     for spectrum in (given, scaled):
         t = equivalent_linear(SYSTEM, spectrum, bounds=None, superstructure=ABOVE, code=NCh2745())
         assert t["nominal"].trace.value("V_fixed") == 0.0
-        assert t["nominal"].trace["V_fixed"].note.startswith("not known")
+        assert t["nominal"].trace["V_fixed"].note.startswith("unknown")
 
 
 def test_forces_by_nch2745() -> None:

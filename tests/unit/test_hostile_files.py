@@ -305,7 +305,7 @@ def undigested(path: Path) -> None:
         (emptied, "motions/artificial-5-y.txt", "check", 2, "artificial-5-y.txt"),
         (a_folder, "motions/artificial-5-y.txt", "check", 2, "artificial-5-y.txt"),
         (binary, "small.toml", "check", 2, "save it as UTF-8"),
-        (a_folder, "small.toml", "check", 2, "give a file"),
+        (a_folder, "small.toml", "check", 2, "name an existing file"),
     ],
 )
 def test_damage_is_a_line_with_its_code(done, damage, name, command, code, words):

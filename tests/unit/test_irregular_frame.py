@@ -204,7 +204,7 @@ HEAD = "name,x [m],y [m],storeys,section,depth_along\n"
 REFUSED_BEAMS = [
     (FIRST, "A1,Aa3,,B", 'no column "Aa3": is "A3" meant?'),
     (FIRST, "A1,A1,,B", "begins and ends at"),
-    (FIRST, "A1,A2,,B\nA2,A1,1,B", "two beams between"),
+    (FIRST, "A1,A2,,B\nA2,A1,1,B", "two beams join"),
     (FIRST, "A1,A2,,B\nA1,A3,1,B", "overlap or cross"),
     (FIRST, "A1,A2,,B\nA1,B2,1,B\nA2,B1,1,B", "overlap or cross"),
     (FIRST, "A1,A2,,D", 'section "D": there is no rolled shape'),

@@ -115,13 +115,13 @@ def test_walls_in_the_model_are_told_of_with_what_they_do() -> None:
         f"{model}: contact in 1 of 2 runs, with up to {1e-3 * force.max():.4g} kN at a node; "
         "their force is in the results (links.csv)"
     )
-    assert "hold back 1 of 2 runs" in histories.note
-    assert "hold back" not in linear.note  # which has no walls
+    assert "limit the displacement of 1 of 2 runs" in histories.note
+    assert "limit the displacement" not in linear.note  # which has no walls
     far = 1.1 * free.max()
     wide = checked(far, "ASCE 7-22", wall_at(far))
     assert wide[3].passed
     assert wide[3].note.endswith("are modelled: no contact in the runs")
-    assert "hold back" not in wide[2].note
+    assert "limit the displacement" not in wide[2].note
     pytest.importorskip("babel")
     words = Words("es", ",")
     for check in (histories, single, *wide[1:4]):

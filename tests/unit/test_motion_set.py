@@ -315,7 +315,7 @@ def test_a_motion_is_a_ground_motion() -> None:
 @pytest.mark.parametrize(
     ("lines", "words"),
     [
-        ("x\na.txt\n", "needs name"),
+        ("x\na.txt\n", "add name"),
         ("name,x\n,a.txt\n", "name"),
         ("name,x\na,missing.txt\n", "is not a file"),
         ("name,x\na,a.txt\n", "unit"),

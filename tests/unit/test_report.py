@@ -242,7 +242,7 @@ def test_it_is_written_anew_from_the_results(page: str, copied: Path) -> None:
     assert "No se cumplen" in (kept / "report.html").read_text(encoding="utf-8")
     done = lir("report", copied, "--language", "fr")
     assert done.exit_code == 2
-    assert "language = 'fr' is not one of reports" in " ".join(done.output.split())
+    assert "language = 'fr' is not a language of reports" in " ".join(done.output.split())
 
 
 @pytest.mark.parametrize(

@@ -256,7 +256,7 @@ def test_damping_of_the_structure(tmp_path: Path) -> None:
 COLUMNS = 'columns = { rectangle = ["400 mm", "600 mm"], material = "C30/37" }'
 REFUSED = {
     'columns = { rectangle = ["400 mm", "600 mm"] }': "rectangle needs its material",
-    'columns = { box = ["400 mm", "25 mm"], circle = "300 mm" }': "box and circle: give one",
+    'columns = { box = ["400 mm", "25 mm"], circle = "300 mm" }': "box and circle: write one",
     'columns = { material = "S355" }': 'has no section: section = "HEB 300"',
     'columns = { section = "HEB 305" }': 'no rolled shape "HEB 305"',
     'columns = { box = ["400 mm", "25 mm"], material = "S356" }': 'is "S355" meant?',
@@ -279,7 +279,7 @@ REFUSED = {
     'columns = [{ box = ["400 mm", "25 mm"] }, { circle = "1 m", material = "S355" }]': (
         "storey 1 has two sections"
     ),
-    'columns = { box = ["400 mm", "25 mm"], hinges = { hardening = 0.1 } }': "needs yield_stress =",
+    'columns = { box = ["400 mm", "25 mm"], hinges = { hardening = 0.1 } }': "either yield_stress =",
     'columns = { box = ["400 mm", "25 mm"], faces = true }': "faces = true, beams end at the faces",
     'columns = [{ box = ["400 mm", "25 mm"], at = ["3-0"] }]': 'at = "3-0" is no column',
     'columns = [{ box = ["400 mm", "25 mm"], at = ["0-0", "0-0"] }]': 'of column "0-0" has two',

@@ -80,7 +80,7 @@ def test_several_values_are_summed_and_none_is_dropped() -> None:
     assert t.each("S", "above(F)", "N") == pytest.approx((210e3, 200e3, 160e3, 130e3, 50e3))
     t.given_each("x", [1.0, 2.0], "m")
     refused(CheckError, "different lengths", t.each, "M", "F * x", "N m")
-    refused(CheckError, "5 values: take sum", t, "G", "2 * F", "N")
+    refused(CheckError, "5 values: use sum", t, "G", "2 * F", "N")
     refused(CheckError, "has one value", t.each, "H", "2 * V", "N")
 
 

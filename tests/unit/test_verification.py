@@ -106,7 +106,7 @@ def test_the_command_says_what_stands_in_the_way(told: tuple[Any, Path]) -> None
     assert set(front["outcome"]) == {"fails"}
     assert (out / "front.png").stat().st_size > 10_000
     assert not (out / "verified.csv").exists()  # what fails on the quick model is not verified
-    assert "none passes every check" in done.stdout
+    assert "no candidate passes every check" in done.stdout
     assert "\n- number of motions" in done.stdout
     assert "\n- effect of the motions: the mean spectrum of the motions is" in done.stdout
     assert done.stdout.count("[bearing]") == 1

@@ -96,8 +96,7 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> tuple[Runs, xr.Da
     if not facts.is_file():
         partly = (folder / UNFINISHED).is_dir()
         msg = (
-            f"{folder} has {'an interrupted run' if partly else 'no run'}: run `lir run` to "
-            "the end"
+            f"{folder} has {'an interrupted run' if partly else 'no run'}: run `lir run` to the end"
         )
         raise ProjectError(msg)
     kept = _read_facts(facts)
