@@ -208,7 +208,7 @@ REFUSED_BEAMS = [
     (FIRST, "A1,A2,,B\nA1,A3,1,B", "overlap or cross"),
     (FIRST, "A1,A2,,B\nA1,B2,1,B\nA2,B1,1,B", "overlap or cross"),
     (FIRST, "A1,A2,,D", 'section "D": there is no rolled shape'),
-    (FIRST, "A1,A2,2-4,B", 'floors = "2-4" must be a number'),
+    (FIRST, "A1,A2,2-4,B", 'floors = "2-4" must be a storey'),
     (FIRST, "A1,A2,,", "section is empty"),
     (FIRST, "A1,A2,,B,3", "has 5 cells, its head 4"),
     ("from,to", "from,too", 'column "too" is not known'),
@@ -225,7 +225,7 @@ REFUSED_COLUMNS = [
     ("C1,0,10,", "C1,,10,", "x is empty"),
     (LAST, f"{LAST}z", 'choose one of "x", "y"'),
     ("x [m]", "x", 'x = "0" has no unit'),
-    ("x [m]", "y [m]", 'column "y" is there twice'),
+    ("x [m]", "y [m]", 'column "y" occurs twice'),
     (HEAD, "", "is not known"),
     (HEAD, "name,y [m]\n", 'column "x" is missing'),
     (COLUMNS, "name,x [m],y [m],section\n\n", "has no rows"),
@@ -300,7 +300,10 @@ accidental_eccentricity = 0.0
 @pytest.mark.parametrize(
     ("columns", "beams", "words"),
     [
-        *((name, "beams.csv", f'"{name}" has the name of a file of the results') for name in NAMES),
+        *(
+            (name, "beams.csv", f'"{name}" must not have the name of a file of the results')
+            for name in NAMES
+        ),
         ("a/table.csv", "table.csv", r"are both named table\.csv"),
     ],
 )

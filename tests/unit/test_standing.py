@@ -40,7 +40,7 @@ def test_the_star_means_what_is_from_memory() -> None:
         ("read", "", "name edition and clause"),
         ("agrees", " ", "name the public text"),
         ("memory", "a book", "not 'a book': leave source out"),
-        ("own", "a book", "leave it out"),
+        ("own", "a book", "leave source out"),
     ],
 )
 def test_a_standing_that_says_nothing_is_refused(kind: str, source: str, said: str) -> None:

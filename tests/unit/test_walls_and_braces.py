@@ -156,7 +156,7 @@ REFUSED = {
     "one column": (WALL.replace('"0-1"', '"0-0"'), "twice: write two different columns"),
     "wall above": (WALL + "storeys = [2, 3]", "a wall must start"),
     "thick": (WALL.replace("300 mm", "3000 mm"), "more than half of the length"),
-    "storeys": (WALL + "storeys = [1, 4]", "within the 3 of the building"),
+    "storeys": (WALL + "storeys = [1, 4]", "within 1 to 3: write"),
     "wall twice": (WALL + WALL.replace('"0-0", "0-1"', '"0-1", "0-0"'), "occurs twice"),
     "over beams": (WALL.replace('"0-0", "0-1"', '"0-0", "2-0"'), "overlap or cross"),
     "material": (WALL.replace('material = "C30/37"\n', ""), "material is missing"),
@@ -164,7 +164,7 @@ REFUSED = {
     "unknown column of a brace": (BRACE.replace('"1-0"', '"9-0"'), 'there is no column "9-0"'),
     "brace to itself": (BRACE.replace('"1-0"', '"0-0"'), "twice: write two different columns"),
     "pattern": (BRACE + 'pattern = "k"', "pattern"),
-    "brace above": (BRACE + "storeys = [3, 4]", "within the 3 of the building"),
+    "brace above": (BRACE + "storeys = [3, 4]", "within 1 to 3: write"),
     "brace section": (BRACE.replace('circle = "100 mm"\n', ""), "has no section"),
     "turned brace": (
         BRACE.replace('circle = "100 mm"', 'box = ["9 cm", "5 mm"]\ndepth_along = "x"'),
