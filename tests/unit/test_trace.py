@@ -108,7 +108,7 @@ def test_a_calculation_of_some_symbols_has_what_they_follow_from() -> None:
         ("a < b", "use numbers, names"),
         ("sqrt + a", "use numbers, names"),
         ("sqrt(a, b)", "use numbers, names"),
-        ("unknown * a", "no 'unknown' in the calculation"),
+        ("unknown * a", "symbol 'unknown' is not in the calculation"),
         ("a / b", "not finite at a = 1, b = 0"),
         ("log(b)", "not finite"),
         ("sqrt(b - a)", "not finite"),

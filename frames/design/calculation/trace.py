@@ -222,8 +222,9 @@ class Trace:
     ) -> Step:
         tree = parse(formula)
         entered = names(tree)
+        values = {name: self[name].value for name in entered}
         try:
-            found = evaluate(tree, {name: self[name].value for name in entered})
+            found = evaluate(tree, values)
         except ValueError as cause:
             msg = (
                 f"{symbol} = {formula} combines lists of different lengths ({cause}): use lists "
