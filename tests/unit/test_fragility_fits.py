@@ -177,6 +177,7 @@ def test_what_determines_no_curve_is_refused() -> None:
         ("all runs exceed", fit_stripes, im, np.ones_like(over), records),
         ("must overlap", fit_stripes, im, (im > 0.8).astype(float), records),
         ("grow with the intensity", fit_stripes, im, 1.0 - over, records),
+        ("are one stripe", fit_stripes, 1.0 + 0.05 * im / im.max(), over, records),
         ("one length", fit_stripes, im, over[1:], records),
         ("positive", fit_stripes, -im, over, records),
         ("at least 3", fit_capacities, [1.0, 2.0], ["a", "b"]),

@@ -31,6 +31,9 @@ RESAMPLES = 500
 LEAST_FITS = 0.5
 """Share of resamples that must allow a fit."""
 
+SPAN = 1.2
+"""Least ratio of the largest to the smallest intensity of a curve [-]."""
+
 Fit = Callable[[FloatArray], FloatArray | None]
 """Fit from the weights of the records (n,) to parameters, None if they allow no fit."""
 
@@ -147,6 +150,12 @@ def fit_stripes(
     fitted = binomial(at, over, np.ones(len(at)), "probit", clusters=of)
     if fitted is None:
         raise FragilityError(no_fit(at, over))
+    if at.max() < SPAN * at.min():
+        msg = (
+            f"intensities from {at.min():.4g} to {at.max():.4g} are one stripe, which gives no "
+            f"median: run two or more, at least {SPAN:g} times apart"
+        )
+        raise FragilityError(msg)
     start = fitted.parameters
     levels, level = np.unique(at, return_inverse=True)
 
