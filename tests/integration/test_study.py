@@ -15,7 +15,7 @@ pytest.importorskip("pyFragility")
 from frames.risk.campaign.comparison import dish_diameter
 from frames.risk.campaign.ductility import yield_rotations
 from frames.risk.campaign.file import campaign_file, models_in
-from tests.unit.test_campaign_compare import COMPARED, FILE, SEARCH, put_pulses
+from tests.unit.test_campaign_compare import FILE, put_pulses
 from validation.page import FOLDER
 from validation.study import device, recompute, runner
 from validation.study.__main__ import PARTS, main
@@ -57,7 +57,7 @@ TEMPLATE = """# A part
 
 {{ double }} is twice {{ own.runs }}. ![]({{ figure_of("fragility-1") }})
 
-{{ campaigns.search.tables.search|length }} points. {{ cost_line(campaigns) }}
+{{ cost_line(campaigns) }}
 """
 OWN = """
 def numbers(every):
@@ -71,9 +71,6 @@ def test_a_part_is_a_file_and_a_template(tmp_path, monkeypatch, capsys):
     """Run, told by its tables, gone on with, and written again from its numbers."""
     monkeypatch.setattr(runner, "HERE", put_pulses(tmp_path))
     (tmp_path / "after.toml").write_text(FILE)
-    searched = FILE.replace(COMPARED, f'{SEARCH}[compare]\ncollapse_drift = "0.3 %"\n')
-    searched = searched.replace("trials = 1", "trials = 0").replace('"2.5 m/s2", "3 m/s2", ', "")
-    (tmp_path / "after-search.toml").write_text(searched)
     (tmp_path / "after.md.j2").write_text(TEMPLATE.replace("double }}", "double(own) }}"))
     module = types.ModuleType("own")
     exec(OWN, vars(module))  # noqa: S102  (a module of the test)
@@ -96,8 +93,7 @@ def test_a_part_is_a_file_and_a_template(tmp_path, monkeypatch, capsys):
     assert csv["ratio [-]"].to_numpy() == pytest.approx(ratios["ratio [-]"], rel=1e-4, nan_ok=True)
     main(given)
     text = (to / "study_after.md").read_text()
-    points = 4
-    assert f"{points} points. {runs + 12 * points} histories, 0 of them in the last call" in text
+    assert f"{runs} histories, 0 of them in the last call" in text
     main([*given[:3], "--archive", str(tmp_path)])
     monkeypatch.setattr(
         recompute, "LIMITS", {"study_after": ("collapse", "storey drift, mean", 0.003)}
@@ -235,11 +231,10 @@ def test_buildings_have_devices_of_one_plan_and_load():
     """Of a building the largest dish, and under each column the load, are the same."""
     given = campaign_file(runner.HERE / "buildings.toml")
     models = models_in(given)
-    ratios = {"3 storeys, walls": 1.0, "6 storeys, frames": 1.22, "9 storeys, frames": 1.44}
     for structure in given.structures:
         frames = [frame for name, frame in models.items() if name.startswith(f"{structure}, ")]
         assert len(frames) == len(given.devices)
-        assert device.highest_ratio(frames[0]) == pytest.approx(ratios[structure], abs=5e-3)
+        assert 0.99 < device.highest_ratio(frames[0]) <= 1.0
         every = [device.bearings_of(frame) for frame in frames]
         dishes = [max(map(dish_diameter, bearings)) for bearings in every]
         assert dishes == pytest.approx([dishes[0]] * len(dishes), rel=1e-6)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from frames import modes
 from frames.risk.campaign.comparison import dish_diameter
+from frames.risk.campaign.devices import highest_ratio
 from frames.risk.fragility.runs import COMPLETE
 
 if TYPE_CHECKING:
@@ -35,6 +36,8 @@ def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
             "loads": [min(loads), max(loads)],
             "plan": 1e3 * max(map(dish_diameter, bearings)),
             "height": 1e3 * bearings[0].slider_height,
+            "interface": bearings[0].interface_friction,
+            "ratio": highest_ratio(frame),
             "uplift": [_lifted(tables.runs[each].table) for each in devices],
         }
     return found

@@ -13,6 +13,7 @@ from frames.risk import Device, LimitState, compare_fragility, paired_tests
 from frames.risk.campaign.comparison import COLLAPSE, dish_diameter
 from frames.risk.campaign.devices import highest_ratio, moat_of
 from frames.risk.campaign.tables import CONFIDENCE
+from validation.study import levels
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -132,6 +133,7 @@ def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
         }
     margins = every[LEVELS[0]].margins.reindex(columns=["margin [-]"])["margin [-]"].to_dict()
     found["turns"] = {rims: turning_prices(margins, frames, rims) for rims in RIMS}
+    found["levels"] = levels.numbers(every)
     return found
 
 
@@ -250,7 +252,7 @@ MARKERS = "osd^v"
 
 
 def figures(campaigns: Mapping[str, Any], own: Own) -> dict[str, Figure]:
-    """Return the figures by name: each of the terms, cost, and the search."""
+    """Return the figures by name: each of the terms, levels and cost."""
     margins = {level: campaigns[level]["tables"]["margins"].set_index("device") for level in LEVELS}
     considered = campaigns[LEVELS[0]]["considered"]
     found = {terms: terms_figure(own, terms, considered) for terms in TERMS}
@@ -258,8 +260,7 @@ def figures(campaigns: Mapping[str, Any], own: Own) -> dict[str, Figure]:
     found["margins"] = margins_figure(own, cells)
     sizes = [(margins[LEVELS[0]], key, (), "") for key in ("cost", "moat")]
     found["price"] = margins_figure(own, sizes)
-    if "search" in campaigns:
-        found["search"] = search_figure(campaigns["search"]["tables"]["search"])
+    found["levels"] = levels.figure(own["levels"])
     return found
 
 
@@ -341,21 +342,4 @@ def margins_figure(own: Own, cells: Sequence[tuple[Any, str, Sequence[str], str]
         if title:
             ps.caption(panel, title=title)
     legend(figure)
-    return figure
-
-
-def search_figure(table: Any) -> Figure:
-    """Return the medians of collapse of all points searched, over sliders and interface."""
-    figure = ps.new_figure(3.0)
-    ((panel,),) = ps.grid_of(figure, 1, 1)
-    shown = panel.scatter(
-        1e3 * table["least_slider_radius"],
-        table["interface_friction"],
-        c=table["median [m/s2]"],
-        edgecolors=["black" if best else "none" for best in table["best"]],
-        s=30,
-        cmap="viridis",
-    )
-    figure.colorbar(shown, ax=panel).set_label("collapse, median [m/s2]", fontsize=ps.LABEL)
-    ps.caption(panel, x="least slider radius [mm]", y="friction of the interface [-]")
     return figure

@@ -10,27 +10,24 @@ as `own`; and `figures(campaigns, own)`, by name.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pandas as pd
 
 from frames.design.project.inputs import bearing_of, motions_of
-from frames.risk.campaign.file import campaign_file, read_campaign, run_search
+from frames.risk.campaign.file import campaign_file, read_campaign
 from frames.risk.campaign.page import device_curves, loss_curves
 from frames.risk.campaign.plot_response import response_by_factor
-from frames.risk.campaign.store import open_campaign
 from frames.risk.campaign.tables import CONFIDENCE, CampaignTables
 from validation.page import DPI, FOLDER, render
 from validation.study import shown
-from validation.study.part import client_of, made_on, performed, quietly
+from validation.study.part import performed, quietly
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -38,7 +35,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from frames.risk.campaign.file_schema import CampaignFile
-    from frames.risk.campaign.store import CampaignStore
 
     Told = Mapping[str, Any]
     """Of a campaign: its tables by name, "plan", "cost", "digest", "considered", "motions"."""
@@ -89,9 +85,6 @@ def _run(part: str, work: Work) -> None:
         file = campaign_file(path)
         if work.trial is not None:
             file = tried(file, work.trial)
-        if file.search is not None:
-            told[name] = _searched(file, work.store / part / name, work.workers)
-            continue
         campaign = read_campaign(file, store=work.store / part / name)
         cost = performed(campaign, work.workers)
         every[name] = tables = CampaignTables(campaign, file)
@@ -179,37 +172,9 @@ def tried(file: CampaignFile, few: int) -> CampaignFile:
     values = getattr(given, key)
     names = tuple(name for each in read for name in list(each)[:few])
     changed["motions"] = given.model_copy(update={"only": names, key: _few(values, few)})
-    if file.search is not None:
-        changed["search"] = file.search.model_copy(update={"points": few + 2, "trials": 0})
     if file.sample is not None:
         changed["sample"] = file.sample.model_copy(update={"size": 2 * few})
     return file.model_copy(update=changed)
-
-
-def _searched(file: CampaignFile, store: Path, workers: int | str) -> Told:
-    # The points of a search, and what the campaigns of its stages cost.
-    before = sum(each.status().done for each in _stages(store))
-    clock = perf_counter()
-    with quietly(), client_of(workers) as (own, client):
-        table = run_search(file, store=store, workers=own, client=client)
-    stages = _stages(store)
-    data = [each.results() for each in stages]
-    runs = sum(each.sizes["run"] for each in data)
-    loop = sum(float(each["seconds_loop"].sum()) for each in data)
-    clock, digests = perf_counter() - clock, [each.digest() for each in stages]
-    cost = {"runs": runs, "computed": runs - before, "clock": clock, "loop": loop}
-    return {
-        "tables": {"search": table},
-        "plan": {},
-        "cost": cost | made_on(),
-        "digest": hashlib.sha256("".join(digests).encode()).hexdigest(),
-        "considered": None,
-        "motions": len({*data[0]["motion"].to_numpy()}),
-    }
-
-
-def _stages(store: Path) -> list[CampaignStore]:
-    return [open_campaign(path) for path in sorted(store.glob("stage-*"))]
 
 
 def _few(values: tuple[Any, ...], few: int) -> tuple[Any, ...]:
