@@ -25,5 +25,5 @@ class ProjectError(ValueError):
     ...     read_project("nowhere.toml")
     ... except ProjectError as error:
     ...     print(error)
-    nowhere.toml: No such file or directory: give a file, `lir new` shows how
+    nowhere.toml: No such file or directory: name an existing file, `lir new` shows how
     """

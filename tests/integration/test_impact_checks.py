@@ -295,7 +295,9 @@ def test_eccentricity_check_says_what_its_level_can_say() -> None:
     frame = shear_building(device(), [60e3], 60e6, base_mass=60e3)
     data = quietly(time_history, frame, full_sine(1.0))
     (check,) = (c for c in impact_checks(data, frame) if c.title.startswith("normalised ecc"))
-    assert check.note.startswith("counts while N > 0.5 of that at rest; a rim may press alone")
+    assert check.note.startswith(
+        "counts while N > 0.5 of that at rest; at the level 'pendulum' one rim"
+    )
     assert "level 'contact'" in check.note
 
 

@@ -149,7 +149,7 @@ def test_each_type_is_checked_at_its_own_loads(folder: Path) -> None:
         ('"1-0"', '"1-00"', 'columns: 1-00 is not a column with a bearing; is "1-0" meant'),
         ('columns = ["1-0", "bearing-1-1"]', 'above = "1 GN"', "no column uses"),
         ('columns = ["1-0", "bearing-1-1"]', "above = 100", "above = 100 has no unit"),
-        ("[bearings.middle]", "[bearings.standard]", "has the name of the type"),
+        ("[bearings.middle]", "[bearings.standard]", "must not have the name of the type"),
         ("friction = 0.06", "frictoin = 0.06", r"bearings.middle.frictoin is not known; is"),
         ("interface_friction = 0.18", "interface_friction = 0.03", r"\[bearings.middle\]"),
         ("[bearings.middle]", "[bearings]\nmiddle = 3\n[bearings.more]", "bearings.middle"),

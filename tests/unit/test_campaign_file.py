@@ -105,7 +105,7 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
         ('folder = "motions"', PULSES.replace("]}", '], periods = ["3 s"]}'), "write one of both"),
         ('folder = "motions"', PULSES, "pulses, which their velocities scale"),
         ('folder = "motions"', f'folder = "motions"\n{PULSES}', "needs one source"),
-        ("scales", "turned = [0, 0]\nscales", "has one twice"),
+        ("scales", "turned = [0, 0]\nscales", "turned: [0.0, 0.0] has a value twice"),
         ("scales", 'vertical = ["without"]\nscales', "no vertical component: use records"),
         (
             "scales",

@@ -50,7 +50,7 @@ def test_whole_building_is_a_project(building: str, tmp_path: Path) -> None:
 def test_unknown_building_and_another_code(tmp_path: Path) -> None:
     with pytest.raises(ProjectError, match=r"example = 'castle': choose one of .*'hospital'"):
         write_example(tmp_path, building="castle")
-    with pytest.raises(ProjectError, match="is of NCh2745: leave --code out"):
+    with pytest.raises(ProjectError, match="has the code NCh2745: leave --code out"):
         write_example(tmp_path, code="EN 1998", building="hospital")
     assert not any(tmp_path.iterdir())
 

@@ -128,7 +128,7 @@ def test_a_file_that_changes_before_anything_is_run_is_refused(done, monkeypatch
         return before(parts)
 
     monkeypatch.setattr(design_run, "preliminary", edited)
-    assert "repeat the command" in one_line(lir("run", done), 2)
+    assert "run the command again" in one_line(lir("run", done), 2)
 
 
 def linked(out: Path, name: str, target: Path) -> None:
@@ -228,7 +228,7 @@ def test_files_that_run_are_named_and_lie_in_the_folder(done: Path, way: str) ->
         (done / "inside.py").symlink_to(outside)
     file.write_text(text)
     said = one_line(invoked(command, str(file)), 2)
-    assert f"{outside} lies outside of the project's folder" in said
+    assert f"{outside} is outside of the project's folder" in said
     assert not ran.exists()
     found = invoked("--scripts-from-anywhere", command, str(file))
     assert "ValueError: on purpose" in one_line(found, 2)
@@ -285,10 +285,10 @@ def undigested(path: Path) -> None:
 @pytest.mark.parametrize(
     ("damage", "name", "command", "code", "words"),
     [
-        (cut, "out/runs-lower.nc", "report", 2, "runs-lower.nc is not as it was written"),
-        (emptied, "out/runs-upper.nc", "report", 2, "runs-upper.nc is not as it was written"),
+        (cut, "out/runs-lower.nc", "report", 2, "runs-lower.nc was changed after the run"),
+        (emptied, "out/runs-upper.nc", "report", 2, "runs-upper.nc was changed after the run"),
         (flipped, "out/runs-nominal.nc", "report", 2, "its SHA-256 is not the one in run.json"),
-        (flipped, "out/governing.nc", "view", 2, "governing.nc is not as it was written"),
+        (flipped, "out/governing.nc", "view", 2, "governing.nc was changed after the run"),
         (Path.unlink, "out/governing.nc", "report", 2, "run `lir run` again"),
         (undigested, "out/governing.nc", "report", 2, "has no results (netCDF)"),
         (binary, "out/run.json", "report", 2, "run.json is damaged"),

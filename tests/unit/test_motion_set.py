@@ -296,7 +296,7 @@ TARGET = Spectrum.asce7(1.0, 0.6)
             lambda: MotionSet({"a": GroundMotion(x=np.ones(9), y=np.zeros(9), dt=1.0)}).scaled_to(
                 TARGET, periods=(1.0, 2.0), measure="geometric mean"
             ),
-            "does not move",
+            "has no acceleration",
         ),
         (lambda: MotionSet.from_folder("nowhere"), "is not a file"),
         (lambda: MotionSet.fema_p695("far"), "kind"),

@@ -621,7 +621,7 @@ def test_a_run_that_was_not_written_whole_is_none(done, monkeypatch):
     assert "complete runs are kept in" in failed.output
     found = run(app, ["report", *words])
     assert found.exit_code == 2
-    assert "holds an interrupted run" in found.output
+    assert "has an interrupted run" in found.output
 
 
 def test_a_governing_run_whose_peaks_are_chance_says_so(done, monkeypatch):

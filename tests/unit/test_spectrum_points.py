@@ -121,7 +121,7 @@ def test_lists_and_tables_are_the_same(tmp_path: Path) -> None:
         ('points = [["1 s", "1 g"], ["3 s", "1 g"]]\n', "ASCE 7-22", "must begin at 0"),
         ('points = "none.csv"\n', "NCh2745", "none.csv: No such file"),
         ('points = "odd.csv"\n', "NCh2745", 'odd.csv begins with "T,Sa": its first line must be'),
-        ('points = "unit.csv"\n', "NCh2745", "accelerations in ft/s2: give them in g"),
+        ('points = "unit.csv"\n', "NCh2745", "accelerations are in ft/s2: write them in g"),
         ('points = "row.csv"\n', "NCh2745", "row.csv, line 3: 1.0,x must be two numbers"),
         ('points = "comma.csv"\n', "EN 1998", "line 2: 0,0,1,5 must be.*need semicolons"),
         ('points = "quoted.csv"\n', "EN 1998", "line 2: 0,5 has a decimal comma, but commas sep"),

@@ -210,7 +210,7 @@ class MotionSource(Table):
     @classmethod
     def _each_once(cls, given: tuple[Any, ...]) -> tuple[Any, ...]:
         if len({*given}) < len(given):
-            msg = f"= {list(given)} has a value twice: leave one out"
+            msg = f"{list(given)} has a value twice: leave one out"
             raise ValueError(msg)
         return given
 
