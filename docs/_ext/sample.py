@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from sphinx.application import Sphinx
 
 PAGES = ("report.html", "view.html", "report.pdf")
-CALLS = (("new", "."), ("run",), ("view",), ("report", "--pdf"))
+CALLS = (("new", "."), ("run",), ("report", "--pdf"), ("view",))  # a report removes earlier views
 COMMAND = (sys.executable, "-c", "from frames.command.entry import main; main()")
 
 
@@ -36,10 +36,9 @@ def write(app: Sphinx, _: object) -> None:
         with tempfile.TemporaryDirectory() as place:
             for words in CALLS:
                 subprocess.run([*COMMAND, *words], cwd=place, check="--pdf" not in words)  # noqa: S603
+            Path(place, "results", "report.pdf").touch()
             for name in PAGES:
-                made = Path(place, "results", name)
-                made.touch()
-                shutil.copy(made, target)
+                shutil.copy(Path(place, "results", name), target)
         stamp.write_text(sources_hash(), encoding="utf-8")
 
 
