@@ -65,8 +65,8 @@ assert abs(edc / (4 * bearing.effective_friction * load * 0.17) - 1.0) < 0.02
 # At 175 mm the slider meets the rims. Its interface slips: the force stays below a limit, whatever
 # the speed.
 
-test = cyclic_test(bearing, [0.185, -0.185, 0.185, 0.0], load, velocity=0.02)
-test = test.sel(axis="x").squeeze()
+path = np.interp(np.linspace(0.0, 4.0, 1601), range(5), [0.0, 0.185, -0.185, 0.185, 0.0])  # m
+test = cyclic_test(bearing, path, load, velocity=0.02).sel(axis="x").squeeze()
 figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.4), layout="constrained")
 left.plot(1e3 * test["bearing_displacement"], 1e-3 * test["bearing_force"])
 left.axhline(1e-3 * bearing.force_limit(load), color="C3", linestyle="--")

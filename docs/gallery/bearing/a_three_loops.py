@@ -7,6 +7,7 @@ of a plain DCFP has no bound, that of the LIR-DCFP ends where its interface slip
 """
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 from lir_element import CoulombFriction, LIRBearing, cyclic_test
 
@@ -27,7 +28,8 @@ load, largest = 150e3, {}  # N
 figure, panels = plt.subplots(1, 3, figsize=(9, 3.2), sharex=True, layout="constrained")
 for panel, (name, device) in zip(panels, devices.items(), strict=True):
     reach = 0.176 if name == "DCFP with rims" else 0.185  # 1 mm into the rims
-    test = cyclic_test(device, [reach, -reach, reach, -reach, 0.0], load).sel(axis="x").squeeze()
+    path = reach * np.interp(np.linspace(0.0, 5.0, 2001), range(6), [0, 1, -1, 1, -1, 0])  # m
+    test = cyclic_test(device, path, load).sel(axis="x").squeeze()
     panel.plot(1e3 * test["bearing_displacement"], test["bearing_force"] / load)
     panel.set(title=name, xlabel="displacement [mm]")
     largest[name] = float(abs(test["bearing_force"]).max()) / load

@@ -16,4 +16,4 @@ curves = {  # Sa(3 s) at which the storey drift reaches its limit [m/s2]
 
 assert curves["LIR-DCFP"].median > curves["plain DCFP"].median
 
-fragility_curves(curves, label="Sa(3 s) [m/s2]")
+fragility_curves(curves, label="Sa(3 s)")

@@ -21,4 +21,4 @@ risks = {
 
 assert risks["LIR-DCFP"].rate < risks["plain DCFP"].rate
 
-risk_deaggregation(risks, label="Sa(3 s) [m/s2]")
+risk_deaggregation(risks, label="Sa(3 s)")
