@@ -172,19 +172,23 @@ def _table(name: str, path: Path, layout: ColumnLayout) -> FloatArray:
     return table_of(name, lines, writing)
 
 
+BY_COLUMN = "name the one with the accelerations, (path, column)"
+"""The way in which Python code names a column; a table of motions has another one."""
+
+
 def _only_column(name: str, table: FloatArray, time: int | None) -> int:
     """Return the only column that does not hold the times."""
     others = [index for index in range(table.shape[1]) if index != time]
     if len(others) == 1:
         return others[0]
+    if not others:
+        msg = f"{name} has 1 column for times and accelerations: set dt in s, in place of time"
+        raise MotionError(msg)
     told = ""
     if time is None:
         seem = "the numbers seem to be" if likely_order(table) == "rows" else "if they are"
         told = f'; {seem} one history, row by row, use order="rows"'
-    msg = (
-        f"{name} has {table.shape[1]} columns: name the one with the accelerations, (path, "
-        f"column){told}"
-    )
+    msg = f"{name} has {table.shape[1]} columns: {BY_COLUMN}{told}"
     raise MotionError(msg)
 
 

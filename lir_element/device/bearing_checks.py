@@ -206,8 +206,8 @@ def _of_rims(bearing: Specification) -> Iterator[str]:
     if bearing.slider_height <= rise:
         yield (
             f"slider_height = {bearing.slider_height:g} m is not above {rise:.4g} m, the "
-            f"rise of both concave surfaces {edge:.4g} m from the axis (slider edge at rim "
-            "contact): increase slider_height or radius, or reduce capacity"
+            f"rise of both concave surfaces at the slider's edge, {edge:.4g} m from the axis: "
+            "increase slider_height or radius, or reduce capacity"
         )
 
 

@@ -192,7 +192,7 @@ class CoulombFriction(FrictionLaw):
     coefficient: float = field(metadata=_COEFFICIENT)
 
     def __post_init__(self) -> None:
-        check_numbers(self)
+        check_numbers(self, owner="friction ")
 
     @property
     def f_max(self) -> float:

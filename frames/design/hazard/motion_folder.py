@@ -14,6 +14,7 @@ import numpy as np
 
 from frames._csv import csv_lines
 from frames._errors import MotionError, MotionWarning
+from frames.motion.columns import BY_COLUMN
 from frames.motion.ground_motion import GroundMotion
 from frames.motion.record_files import is_record, record_traces, single_traces
 from frames.motion.records import AXES
@@ -100,6 +101,7 @@ Loaded = tuple[dict[str, GroundMotion], dict[str, Facts]]
 
 _OPTIONS = {"dt", "unit", "order", "skip", "width", "decimal", "delimiter"}
 _READ = {"name", "record", "file", *_OPTIONS, *AXES}
+_BY_COLUMN = "leave dt empty if the first holds times, or set file and the column's number as x"
 _YES_NO = {"yes": True, "true": True, "no": False, "false": False}
 _VERTICAL = re.compile(
     r"(?:[-_.]?(UP|VERT?|VRT|UD|DWN|DN|[BHEL][HNL]Z|V|Z)|[-_.](H?3|U))$", re.IGNORECASE
@@ -218,7 +220,8 @@ def _of_columns(
     try:
         return GroundMotion.from_columns(file, time=time, name=name, **options)
     except MotionError as cause:
-        msg = f"{name}: {cause} ({', '.join(sorted(_OPTIONS))} are columns of {table})"
+        said = str(cause).replace(BY_COLUMN, _BY_COLUMN)
+        msg = f"{name}: {said} (in the columns of {table})"
         raise MotionError(msg) from cause
 
 

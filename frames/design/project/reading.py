@@ -102,7 +102,10 @@ def _merged(file: Path, hint: str, read: dict[Path, _Read]) -> dict[str, Any]:
     for name in names if isinstance(names, list) else [names]:
         base = file.parent / str(name)
         if base.parent != file.parent or base in read or not base.is_file():
-            msg = f'{file}: based_on = "{name}" must be another file in its folder, read once'
+            why = (
+                "that file is based on this one, or named twice" if base in read else "no such file"
+            )
+            msg = f'{file}: based_on = "{name}": {why}: name another file of this folder, or none'
             raise ProjectError(msg)
         bases.append(_merged(base, hint, read))
     for tables in (*bases, own):
@@ -131,6 +134,7 @@ def _short(text: object) -> str:
 
 
 _LONGEST = 300  # characters of a path or a value in a message
+_KEYS = 9  # at most, in a message on an unknown one
 
 
 def _told(errors: Sequence[Any]) -> list[Any]:
@@ -178,7 +182,11 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
     if kind == "extra_forbidden":
         known = _known(data, error["loc"], whole)
         near = difflib.get_close_matches(place[-1], _lacking(data, place, known), n=1)
-        meant = f'; is "{near[0]}" meant?' if near else f": it has {', '.join(known)}"
+        likely = difflib.get_close_matches(place[-1], known, n=_KEYS, cutoff=0.0)
+        others = f" (`lir schema` lists {len(known)})" if len(known) > _KEYS else ""
+        meant = f": leave it out, or write one of {', '.join(sorted(likely))}{others}"
+        if near:
+            meant = f'; is "{near[0]}" meant?'
         own = [section for section in _sections_with(place[-1], whole) if section != place[0]]
         if own and len(place) > 1:
             meant = f": it is a key of [{'] and ['.join(own)}]; move it there"
@@ -189,7 +197,8 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
         return _of_a_kind(name, key, error)
     if kind in _LISTS:
         given = _short(json.dumps(error["input"], default=str))
-        return f"{name}: {key} = {given} must be a list: write it in brackets, [0.8, 1.3]"
+        entries = "0.8, 1.3" if _first_number(error["input"]) == "" else f"{given}, {given}"
+        return f"{name}: {key} = {given} must be a list: write it in brackets, [{entries}]"
     if kind in _LENGTHS:
         held = error["ctx"].get("max_length", error["ctx"].get("min_length"))
         bound = "at most" if kind == "too_long" else "at least"
@@ -206,7 +215,7 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
         text = f"must be a pure number, without quotes and unit{_first_number(error['input'])}"
     value = error["input"]
     if isinstance(value, (dict, list)):
-        return f"{name}: {key}: {text}"
+        return f"{name}: {key}: {text}" if place else f"{name}: {text}"
     return f"{name}: {key} = {_short(json.dumps(value, default=str))} {text[0].lower()}{text[1:]}"
 
 
@@ -283,7 +292,7 @@ def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Table]) -> li
         field = model.model_fields.get(part)
         if field is not None:
             annotation = field.annotation
-            found = _section(annotation, data.get(part, {}))
+            found = _section(annotation, data.get(part, {}), place)
             model = found if hasattr(found, "model_fields") else model
     return sorted(
         set(model.model_fields) - {"code"} if place[0] == "spectrum" else model.model_fields
@@ -298,12 +307,13 @@ def _named(annotation: Any, name: str) -> Any:
     return next((way for way in ways if way), None)
 
 
-def _section(annotation: Any, given: Any) -> Any:
-    # The class of a section: of several, the one of its kind.
+def _section(annotation: Any, given: Any, place: Sequence[Any] = ()) -> Any:
+    # The class of a section: of several, the one of its kind, or of the code in an error's place.
     every = getattr(annotation, "__args__", (annotation,))
     parts = [one for one in every if isinstance(one, type) and hasattr(one, "model_fields")]
     for one in parts:
-        kind = getattr(one, "model_fields", {}).get("kind")
-        if kind is not None and given.get("kind") in getattr(kind.annotation, "__args__", ()):
+        keys: Any = getattr(one, "model_fields", {})
+        kinds, codes = (get_args(keys[k].annotation) if k in keys else () for k in ("kind", "code"))
+        if given.get("kind") in kinds or set(codes) & set(place):
             return one
     return parts[0] if parts else annotation

@@ -76,6 +76,10 @@ class NoCandidateError(CheckError):
             )
             if all(NOT_EVALUATED in one for one in near.lacks):
                 said += "No bearing changes this: correct the model"
+            elif own := [
+                key for what, key in _LIMITS if any(x.startswith(what) for x in near.lacks)
+            ]:
+                said += f"Raise {' and '.join(own)}, or add radii and frictions"
             else:
                 said += (
                     "Add radii and frictions, raise rim_share, or narrow the bounds of the "
@@ -86,6 +90,14 @@ class NoCandidateError(CheckError):
             said += f": radius {first.radius:g} m, friction {first.friction:g}: {first.reason}"
         super().__init__(said)
         self.candidates, self.impossible = candidates, impossible
+
+
+_LIMITS = (
+    ("displacement ", "max_displacement"),
+    ("base shear / weight ", "max_base_shear"),
+    ("plan diameter ", "max_plan_diameter"),
+)
+"""Limits of a target, and the beginnings of the unmet requirements that they cause."""
 
 
 def _by_reason(lacks: Sequence[str]) -> str:

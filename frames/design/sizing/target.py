@@ -25,7 +25,7 @@ end of the tests. A starting point of this package, to be confirmed by the liner
 """
 
 
-_PRESSURE = number("Pa", "(0, inf)")
+_PRESSURE = number("Pa", "[1e5, 1e9]", usual=(5e6, 1e8))
 _PRICE = number("-", "[0, inf)")
 
 

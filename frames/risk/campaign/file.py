@@ -376,7 +376,8 @@ def _choice(name: str, given: Range[float]) -> Choice:
     if given.values is not None or low is None or high is None:
         return given.values or ()
     if not low < high or (given.distribution == "loguniform" and low <= 0.0):
-        msg = f"{name}: low = {low:g} must be below high = {high:g}, and above 0 if loguniform"
+        msg = f"{name}: low = {low:g} must be below high = {high:g}, and above 0 if loguniform: "
+        msg += "swap them, or write others under [parameters]"
         raise CampaignError(msg)
     if given.distribution == "loguniform":
         found: Choice = stats.loguniform(low, high)
