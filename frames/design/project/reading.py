@@ -102,10 +102,8 @@ def _merged(file: Path, hint: str, read: dict[Path, _Read]) -> dict[str, Any]:
     for name in names if isinstance(names, list) else [names]:
         base = file.parent / str(name)
         if base.parent != file.parent or base in read or not base.is_file():
-            why = (
-                "that file is based on this one, or named twice" if base in read else "no such file"
-            )
-            msg = f'{file}: based_on = "{name}": {why}: name another file of this folder, or none'
+            why = "has been read" if base in read else "is no file of this folder"
+            msg = f'{file}: based_on = "{name}" {why}: name another one, or leave it out'
             raise ProjectError(msg)
         bases.append(_merged(base, hint, read))
     for tables in (*bases, own):
