@@ -31,7 +31,7 @@ plots.bearing_dimensions(bearing)
 # %%
 # What was left out has defaults; all properties that apply:
 
-bearing.describe()
+print(bearing.describe())
 
 # %%
 # A cycle within the rims

@@ -90,4 +90,4 @@ for bound, found in runs.items():
 
 checks = history_checks(runs, isolated, "ASCE 7-22", bounds=bounds)
 assert not checks.failed
-checks.to_dataframe()
+checks
