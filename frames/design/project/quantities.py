@@ -104,7 +104,7 @@ def si(value: object, unit: str, example: str) -> float:
         raise ValueError(msg)
     number, given = float(found[1]), _POWER.sub(r"^\1", found[2])
     if unit and not given:
-        msg = f'has no unit: write it as "{example}"'
+        msg = f"has no unit: {_written(number, unit, example)}"
         raise ValueError(msg)
     if unit == "m/s2" and given in {"g", "G"}:  # elsewhere the gram
         given = "standard_gravity"
@@ -115,7 +115,8 @@ def si(value: object, unit: str, example: str) -> float:
         one = _units().Quantity(1.0, _as_pint(given, wanted) or "dimensionless")
         factor = one.to(wanted)
     except pint.UndefinedUnitError as cause:
-        msg = f'has an unknown unit "{found[2]}": write it as "{example}"'
+        remedy = _written(number, unit, example) if unit else f'write it as "{example}"'
+        msg = f'has an unknown unit "{found[2]}": {remedy}'
         raise ValueError(msg) from cause
     except pint.DimensionalityError as cause:
         msg = (
