@@ -109,8 +109,10 @@ def _merged(file: Path, hint: str, read: dict[Path, _Read]) -> dict[str, Any]:
     for tables in (*bases, own):
         for key, given in tables.items():
             known = found.get(key)
-            both = isinstance(given, dict) and isinstance(known, dict)
-            found[key] = {**known, **given} if both else given
+            if isinstance(given, dict) and isinstance(known, dict):
+                found[key] = {**known, **given}
+            else:
+                found[key] = given
     return found
 
 
