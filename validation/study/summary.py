@@ -108,7 +108,7 @@ def verdicts(rows: Sequence[Own]) -> str:
 
 def _cell(row: Own) -> str:
     # Ratio, and records with fewer and more exceedances; bold if the exact test decides.
-    text = f"{ratio_of(row)}; {row['less']} : {row['more']}"
+    text = f"{ratio_of(row)}; {row['less']}:{row['more']}"
     return f"**{text}**" if row["verdict"] in DECIDED else text
 
 
