@@ -11,8 +11,8 @@ import pandas as pd
 from frames import time_history
 from frames.plots import plot_style as ps
 from frames.risk.campaign.designs import with_parameters
-from frames.risk.campaign.file import models_in, read_campaign
-from lir_element import RunStatus
+from frames.risk.campaign.file import read_campaign
+from frames.risk.fragility.runs import FAILURE, outcome_of
 from validation.study.part import quietly
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from frames.frame import Frame
     from frames.risk.campaign.tables import CampaignTables
 
 HOLD = 1e3
@@ -52,7 +53,8 @@ FACTORS = ("rim_damping_factor", "axial_damping_factor")
 def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
     """Return by device the runs that fail at one level alone and by each doubt, and histories."""
     failed = {name: _failed(tables.data) for name, tables in every.items()}
-    found: dict[str, Any] = {"alone": {}, "doubts": [], "histories": _histories()}
+    frame = every["contact"].frames[DEVICE]
+    found: dict[str, Any] = {"alone": {}, "histories": _histories(frame)}
     for name in every["held"].runs:
         contact, pendulum, held = (failed[k].loc[name] for k in ("contact", "pendulum", "held"))
         alone = contact & ~pendulum.reindex(contact.index)
@@ -70,9 +72,7 @@ def _failed(data: xr.Dataset) -> pd.Series:
     # Whether a bearing fails, by device, record, intensity and factors on damping.
     keys = KEYS + [name for name in FACTORS if name in data.coords]
     frame = pd.DataFrame({name: data[name].to_numpy() for name in keys})
-    frame["failed"] = [
-        RunStatus[str(each).upper()].is_bearing_failure for each in data["status"].to_numpy()
-    ]
+    frame["failed"] = [outcome_of(str(each)) == FAILURE for each in data["status"].to_numpy()]
     return frame.set_index(keys)["failed"].sort_index()
 
 
@@ -84,8 +84,7 @@ def _doubts(name: str, failed: Mapping[str, pd.Series]) -> dict[str, list[int]]:
     for factors, part in failed["damping"].loc[name].groupby(level=list(FACTORS)):
         text = "damping of rims times {:g}, of contacts times {:g}".format(*factors)
         variants[text] = part.droplevel(list(FACTORS))
-    for held, kind in ((True, "held"), (False, "pendulum")):
-        text = f"held by {1e-3 * HOLD:.0f} kN" if held else "level pendulum"
+    for text, kind in ((f"held by {1e-3 * HOLD:.0f} kN", "held"), ("level pendulum", "pendulum")):
         variants[text] = failed[kind].loc[name].reindex(step.index)
     return {
         text: [int(part.sum()), int((part != usual.reindex(part.index)).sum())]
@@ -93,11 +92,11 @@ def _doubts(name: str, failed: Mapping[str, pd.Series]) -> dict[str, list[int]]:
     }
 
 
-def _histories() -> dict[str, Any]:
+def _histories(frame: Frame) -> dict[str, Any]:
     # Slip and axial force of the corner over time, by `KINDS`.
     file, found = Path(__file__).with_name("device-contact.toml"), {}
     with quietly():
-        motion, frame = read_campaign(file).motions[RECORD].scaled(SCALE), models_in(file)[DEVICE]
+        motion = read_campaign(file).motions[RECORD].scaled(SCALE)  # that a trial may leave out
         for name, (level, hold) in KINDS.items():
             model = with_parameters(frame, {"interface_hold": hold})
             data = time_history(model, motion, dt=STEP, level=level, duration=SPAN[1])

@@ -130,10 +130,9 @@ def line_of(part: Own) -> str:
     told = part["campaigns"].values()
     levels = sorted({f"`{each['plan']['level of fidelity']}`" for each in told})
     rows = [
-        row | {"ratio": [row["ratio [-]"]] if several and row["ratio [-]"] > 0.0 else None}
+        row | {"ratio": [row["ratio [-]"]] if row["ratio [-]"] > 0.0 else None}
         for each in told
         if "ratios" in each["tables"]
-        for several in ["," in each["plan"][each["axis"]]]  # one intensity has no median
         for row in rows_of(where(each["tables"]["ratios"], limit_state=COLLAPSE))
         if "LIR" in row["own"]
         and "LIR" not in row["over"]
