@@ -172,10 +172,6 @@ def _table(name: str, path: Path, layout: ColumnLayout) -> FloatArray:
     return table_of(name, lines, writing)
 
 
-BY_COLUMN = "name the one with the accelerations, (path, column)"
-"""The way in which Python code names a column; a table of motions has another one."""
-
-
 def _only_column(name: str, table: FloatArray, time: int | None) -> int:
     """Return the only column that does not hold the times."""
     others = [index for index in range(table.shape[1]) if index != time]
@@ -188,7 +184,10 @@ def _only_column(name: str, table: FloatArray, time: int | None) -> int:
     if time is None:
         seem = "the numbers seem to be" if likely_order(table) == "rows" else "if they are"
         told = f'; {seem} one history, row by row, use order="rows"'
-    msg = f"{name} has {table.shape[1]} columns: {BY_COLUMN}{told}"
+    msg = (
+        f"{name} has {table.shape[1]} columns: name the one with the accelerations, (path, "
+        f"column), or in a table of motions file, x and no dt if column 0 holds times{told}"
+    )
     raise MotionError(msg)
 
 

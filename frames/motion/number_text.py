@@ -60,13 +60,16 @@ def acceleration_unit(text: str) -> float | None:
 
 def text_lines(path: Path) -> list[str]:
     """Return the lines of a file, or of a workbook's first sheet; refuse one that is binary."""
-    if path.suffix.lower() in BOOKS:
-        try:
+    try:
+        if path.suffix.lower() in BOOKS:
             return ["\t".join(cells) for _, cells in book_lines(path)]
-        except ValueError as cause:
-            msg = f"{path.name} {cause}"
-            raise MotionError(msg) from cause
-    raw = path.read_bytes()
+        raw = path.read_bytes()
+    except OSError as cause:
+        msg = f"{path} cannot be read ({cause.strerror}): give the path of a record's file"
+        raise MotionError(msg) from cause
+    except ValueError as cause:
+        msg = f"{path.name} {cause}"
+        raise MotionError(msg) from cause
     if raw[:2] in {b"\xff\xfe", b"\xfe\xff"}:
         return raw.decode("utf-16").splitlines()
     if b"\0" in raw[:4096]:

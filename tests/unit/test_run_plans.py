@@ -162,7 +162,8 @@ def test_files_hold_all_of_it(tmp_path: object) -> None:
         assert {"source", "software", "date_created"} <= json.load(file)["origin"].keys()
     with open(path, "w", encoding="utf-8") as file:
         file.write("[1, 2]")
-    refused(FragilityError, "holds no 'lir-dcfp fragility", load_fragility, path)
+    for file in (path, tmp_path, tmp_path / "none.json"):
+        refused(FragilityError, "holds no 'lir-dcfp fragility", load_fragility, file)
 
 
 def test_files_hold_the_periods_of_an_average(tmp_path: object) -> None:

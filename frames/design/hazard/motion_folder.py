@@ -14,7 +14,6 @@ import numpy as np
 
 from frames._csv import csv_lines
 from frames._errors import MotionError, MotionWarning
-from frames.motion.columns import BY_COLUMN
 from frames.motion.ground_motion import GroundMotion
 from frames.motion.record_files import is_record, record_traces, single_traces
 from frames.motion.records import AXES
@@ -101,7 +100,6 @@ Loaded = tuple[dict[str, GroundMotion], dict[str, Facts]]
 
 _OPTIONS = {"dt", "unit", "order", "skip", "width", "decimal", "delimiter"}
 _READ = {"name", "record", "file", *_OPTIONS, *AXES}
-_BY_COLUMN = "leave dt empty if the first holds times, or set file and the column's number as x"
 _YES_NO = {"yes": True, "true": True, "no": False, "false": False}
 _VERTICAL = re.compile(
     r"(?:[-_.]?(UP|VERT?|VRT|UD|DWN|DN|[BHEL][HNL]Z|V|Z)|[-_.](H?3|U))$", re.IGNORECASE
@@ -220,8 +218,7 @@ def _of_columns(
     try:
         return GroundMotion.from_columns(file, time=time, name=name, **options)
     except MotionError as cause:
-        said = str(cause).replace(BY_COLUMN, _BY_COLUMN)
-        msg = f"{name}: {said} (in the columns of {table})"
+        msg = f"{name}: {cause} (in the columns of {table})"
         raise MotionError(msg) from cause
 
 
@@ -249,7 +246,7 @@ def read_at2_folder(folder: PathLike) -> Loaded:
     """Return the motions that PEER files of a folder make; names as in `from_at2_folder`."""
     groups: dict[str, dict[str, Path]] = {}
     odd: list[str] = []
-    for path in sorted(p for p in Path(folder).iterdir() if p.suffix.lower() == ".at2"):
+    for path in sorted(p for p in Path(folder).glob("*") if p.suffix.lower() == ".at2"):
         stem = _LOCATION.sub("", path.stem)  # of an instrument, in names of broad-band stations
         found = _VERTICAL.search(stem) or _HORIZONTAL.search(stem)
         if found is None:

@@ -89,9 +89,7 @@ def load_fragility(path: str | Path) -> Any:
     Raises
     ------
     FragilityError
-        If the file holds nothing of the kind.
-    OSError
-        If the file does not exist.
+        If the file does not exist or holds nothing of the kind.
 
     Examples
     --------
@@ -105,7 +103,7 @@ def load_fragility(path: str | Path) -> Any:
     try:
         content = json.loads(Path(path).read_text(encoding="utf-8"))
         right = content.get("format") == FORMAT
-    except (ValueError, AttributeError):
+    except (OSError, ValueError, AttributeError):
         right = False
     if not right:
         msg = f"{path} holds no {FORMAT!r}: give a file that save_fragility wrote"
