@@ -98,7 +98,8 @@ def pair_spectrum(
     if missing:
         msg = (
             f"{motion.name or 'motion'} has no component {missing[0]} for the measure {measure!r}: "
-            "add the component, or use the measure 'x' or 'y'"
+            f"add it (column {missing[0]} of motions.csv); an intensity ([fragility]) may have "
+            'measure = "x" or "y"'
         )
         raise MotionError(msg)
     pair = [

@@ -100,7 +100,7 @@ def si(value: object, unit: str, example: str) -> float:
         raise ValueError(msg)
     found = _NUMBER.fullmatch(value) if isinstance(value, str) else None
     if found is None:
-        msg = f'is not a number with a unit: write it as "{example}"'
+        msg = f"is not a number{' with a unit' if unit else ''}: {_neutral(unit, example)}"
         raise ValueError(msg)
     number, given = float(found[1]), _POWER.sub(r"^\1", found[2])
     if unit and not given:
@@ -115,16 +115,15 @@ def si(value: object, unit: str, example: str) -> float:
         one = _units().Quantity(1.0, _as_pint(given, wanted) or "dimensionless")
         factor = one.to(wanted)
     except pint.UndefinedUnitError as cause:
-        remedy = _written(number, unit, example) if unit else f'write it as "{example}"'
+        remedy = _written(number, unit, example) if unit else _neutral(unit, example)
         msg = f'has an unknown unit "{found[2]}": {remedy}'
         raise ValueError(msg) from cause
     except pint.DimensionalityError as cause:
-        msg = (
-            f'is in "{found[2]}", not a unit of {unit or "a pure number"}: write it as "{example}"'
-        )
+        kind = unit or "a pure number"
+        msg = f'is in "{found[2]}", not a unit of {kind}: {_neutral(unit, example)}'
         raise ValueError(msg) from cause
     except _UNREADABLE as cause:
-        msg = f'has "{found[2]}" in place of a unit: write it as "{example}"'
+        msg = f'has "{found[2]}" in place of a unit: {_neutral(unit, example)}'
         raise ValueError(msg) from cause
     return _finite(float(f"{number * factor.magnitude:.15g}"))
 
@@ -143,8 +142,13 @@ def _celsius(number: float, given: str, example: str) -> float:
     try:
         return float(_units().Quantity(number, scale).to("degC").magnitude)
     except (pint.UndefinedUnitError, pint.DimensionalityError, *_UNREADABLE) as cause:
-        msg = f'is in "{given}", not a unit of temperature: write it as "{example}"'
+        msg = f'is in "{given}", not a unit of temperature: {_neutral("C", example)}'
         raise ValueError(msg) from cause
+
+
+def _neutral(unit: str, example: str) -> str:
+    # A remedy without a number, which would be of another size than the one that is meant.
+    return f"write a number in {example.split(maxsplit=1)[1]}" if unit else "write a pure number"
 
 
 def _written(value: float, unit: str, example: str) -> str:
