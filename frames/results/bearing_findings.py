@@ -236,6 +236,9 @@ damping does not include the rotations by axial forces (docs/theory.md, 5).
 ROUGH = 0.05
 """Estimated error of a given step over the peak displacement above which it is reported."""
 
+LONG = 0.05
+"""Given step above which ground motion between its points is lost [s]."""
+
 _LIGHT = 1e-2  # of the nodes' mean mass: a node that weighs next to nothing beside the others
 
 TURNED = 0.05
@@ -306,16 +309,18 @@ def time_step(data: xr.Dataset) -> tuple[Finding, ...]:
     error = float(data.attrs.get("estimated_error", np.nan))
     if data.attrs.get("step_control") != "fixed" or not np.isfinite(error):
         return ()
-    doubtful = error > ROUGH
+    step = float(data.attrs["dt"])
+    doubtful = error > ROUGH or step > LONG
     text = worded(
         "time step: as given, estimated error {error:.1g} % of the displacement reached",
         error=100.0 * error,
     )
     if doubtful:
         text = worded(
-            "time step: the given step causes errors of up to about {error:.2g} % of the "
-            "largest displacement: leave dt out, or compare a smaller one "
-            "(step_sensitivity)",
+            "time step: the given step of {step:.3g} s causes errors of up to about {error:.2g} % "
+            "of the largest displacement, and more by ground motion that it skips: leave dt out, "
+            "or compare a smaller one (step_sensitivity)",
+            step=step,
             error=100.0 * error,
         )
     return (remark("time_step", error, text, doubtful=doubtful),)
