@@ -33,22 +33,17 @@ from lir_element.opensees import bearing_element, builtin_commands, opensees
 from lir_element.opensees.element_memory import ElementMemory, entries_of
 from lir_element.opensees.placement import BearingTransform, PlacedBearing
 from lir_element.opensees.plugin import _SESSION
-from validation.measurements.opensees_cost import BASE, STEP, in_turns, pulse, ratio
+from validation.measurements.opensees_cost import BASE, STEP, in_turns, pulse, ratio, set_up
 from validation.measurements.opensees_cost import STEPS as HISTORY
 from validation.multibody import Options, building_history, multibody_history
-from validation.opensees.model import (
-    gravity_analysis,
-    ground_motion,
-    permanent_loads,
-    solver,
-    transient_steps,
-)
+from validation.opensees.model import empty_model
 from validation.page import FOLDER
 from validation.scenes import EXAMPLE_MASS, example_bearing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from lir_element import LIRBearing
     from lir_element.device.features import Level
     from lir_element.layout import Floats
 
@@ -183,28 +178,19 @@ def timed(run: Callable[[], object], steps: int = HISTORY) -> float:
 def in_opensees(ops: Any, route: Any, level: Level | None) -> float:
     """Run OpenSees, or xara, with the bearing at a level, or with its own friction pendulum."""
     bearing, load = BEARING(), EXAMPLE_MASS * 9.80665
-    ops.wipe()
-    ops.model("basic", "-ndm", 3, "-ndf", 6)
-    for node in (1, 2):
-        ops.node(node, 0.0, 0.0, 0.0)
-    ops.fix(1, 1, 1, 1, 1, 1, 1)
-    ops.fix(2, 0, 0, 0, 1, 1, 1)
-    ops.mass(2, *[EXAMPLE_MASS] * 3, 0.0, 0.0, 0.0)
-    if level is None:
-        plain = bearing.as_dcfp(rims=False)
-        for name, *arguments in builtin_commands(BASE, 1, 1, 2, plain, load, apart=False):
+
+    def place(tag: int, i: int, j: int, device: LIRBearing) -> None:
+        if level is not None:
+            bearing_element(tag, i, j, device, level, route=route, ops=ops)
+            return
+        for name, *arguments in builtin_commands(BASE, tag, i, j, device, load):
             getattr(ops, name)(*arguments)
-    else:
-        bearing_element(1, 1, 2, bearing, level, route=route, ops=ops)
-    permanent_loads(ops)
-    ops.load(2, 0.0, 0.0, -load, 0.0, 0.0, 0.0)
-    gravity_analysis(ops)
-    ground_motion(ops, along_x())
-    solver(ops)
-    transient_steps(ops)
+
+    frame = lumped_mass(bearing if level else bearing.as_dcfp(rims=False), EXAMPLE_MASS)
     codes: list[int] = []
-    cost = timed(lambda: codes.append(ops.analyze(HISTORY, STEP)))
-    ops.wipe()
+    with empty_model(ops):
+        set_up(ops, frame, place, along_x())
+        cost = timed(lambda: codes.append(ops.analyze(HISTORY, STEP)))
     if codes != [0]:
         msg = f"the analysis with level {level} stopped"
         raise RuntimeError(msg)
@@ -222,14 +208,14 @@ def in_frames(level: Level | None) -> float:
 
 def in_exudyn(level: Level | None) -> float:
     """Run a quarter of a building on four bearings, or a bearing of bodies and contacts."""
-    motion = along_x()
+    shaking = along_x()
     if level is None:
         end = BODIES * Options().step
         return timed(
-            lambda: multibody_history(BEARING(), EXAMPLE_MASS, motion, end, Options()), BODIES
+            lambda: multibody_history(BEARING(), EXAMPLE_MASS, shaking, end, Options()), BODIES
         )
     mass, end = 4.0 * EXAMPLE_MASS, HISTORY * STEP
-    return 0.25 * timed(lambda: building_history(BEARING(), mass, motion, end, STEP, level))
+    return 0.25 * timed(lambda: building_history(BEARING(), mass, shaking, end, STEP, level))
 
 
 def along_x() -> GroundMotion:

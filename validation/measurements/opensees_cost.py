@@ -18,7 +18,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 
@@ -45,7 +45,7 @@ TARGET = FOLDER / "opensees_cost.md"
 TURNS = 3
 STEPS, STEP = 1000, 0.005  # of the transient analysis, s
 FAST_GOAL, PORTABLE_GOAL = 1.5, 3.0
-BASE = "singleFPBearing"
+BASE: Final = "singleFPBearing"
 MACRO = "LIR-DCFP, macro-model"
 CONTACT_GOAL = 2.0  # times the level pendulum, of a whole step
 FRAMES = {
@@ -119,17 +119,24 @@ def levels(bearing: LIRBearing, load: float) -> dict[str, tuple[LIRBearing, Plac
     return kept
 
 
+def set_up(
+    ops: Any, frame: Frame, place: Place, motion: GroundMotion, algorithm: str = "Newton"
+) -> None:
+    """Write a structure into an empty model, and bring it to the start of its transient analysis."""
+    add_loads(ops, frame, build(ops, frame, place))
+    gravity_analysis(ops)
+    ground_motion(ops, motion)
+    solver(ops)
+    ops.algorithm(algorithm)
+    transient_steps(ops)
+
+
 def microseconds(
     frame: Frame, place: Place, motion: GroundMotion, algorithm: str = "Newton"
 ) -> float:
     """Run a structure in OpenSees and return the time of a step of the transient analysis [us]."""
     with empty_model() as ops:
-        add_loads(ops, frame, build(ops, frame, place))
-        gravity_analysis(ops)
-        ground_motion(ops, motion)
-        solver(ops)
-        ops.algorithm(algorithm)
-        transient_steps(ops)
+        set_up(ops, frame, place, motion, algorithm)
         began = time.perf_counter()
         if algorithm == "Newton":
             steps, done = STEPS, ops.analyze(STEPS, STEP) == 0

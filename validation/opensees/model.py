@@ -27,9 +27,9 @@ _WEIGHT, _PATH, _GROUND = 1, 10, 100  # tags of patterns and their series; the l
 
 
 @contextmanager
-def empty_model() -> Generator[Any, None, None]:
-    """Hand out OpenSees with an empty model of 6 degrees of freedom a node; empty it after use."""
-    ops = opensees()
+def empty_model(ops: Any = None) -> Generator[Any, None, None]:
+    """Hand out OpenSees, or `ops`, with an empty model of 6 degrees of freedom a node; then empty it."""
+    ops = opensees() if ops is None else ops
     ops.wipe()
     ops.model("basic", "-ndm", 3, "-ndf", 6)
     try:
