@@ -1,15 +1,14 @@
 """The parts on pulses and on motions: what is counted, by hand, and what their files say."""
 
-import math
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from frames.risk.campaign.devices import device_ratios, moat_of
-from frames.risk.campaign.file import campaign_file, comparison_in, read_campaign
-from validation.study import motions, near_fault
+from frames.risk.campaign.file import campaign_file, models_in, read_campaign
+from frames.risk.fragility.runs import COMPLETE, FAILURE
+from validation.study import device, motions, near_fault
 from validation.study.near_fault import LOOKS, PAIRS, PLAN
 from validation.study.runner import tried
 
@@ -17,56 +16,67 @@ HERE = Path(near_fault.__file__).parent
 
 
 def test_devices_of_the_map_are_alike_but_for_what_is_limited():
-    """Equal plan, or equal moat, within 1 mm; the LIR-DCFP is within the package's checks."""
-    compared = comparison_in(HERE / "near_fault.toml")
-    bearings = {
-        name: [link.bearing for link in frame.bearings.values()]
-        for name, frame in compared.frames.items()
-    }
-    plans = {name: near_fault.sizes_of(each)[0] for name, each in bearings.items()}
+    """Equal plan, or equal moat, within 2 mm; the LIR-DCFP is within the package's checks."""
+    frames = models_in(HERE / "near_fault.toml")
+    sizes = {name: device.sizes_of(frame) for name, frame in frames.items()}
     for pair, names in PAIRS.items():
-        kind, *size = pair.split()[:2]
-        if kind == "plan":
-            assert [plans[name] for name in names] == pytest.approx(
-                [float(size[0]) / 1e3] * 2, abs=2e-3
-            )
-        if kind == "moat":
-            moats = [moat_of(bearings[name]) for name in names]
-            assert moats == pytest.approx([float(size[0]) / 1e3] * 2, abs=1e-3)
-    ratios = {
-        name: max(check.ratio for check in device_ratios(frame).values())
-        for name, frame in compared.frames.items()
-        if name.startswith("LIR")
-    }
+        key, *size = pair.split()
+        if size:
+            wanted = 1e-3 * float(size[0])
+            assert [sizes[name][key] for name in names] == pytest.approx([wanted] * 2, abs=2e-3)
+    ratios = {name: each["ratio"] for name, each in sizes.items() if name.startswith("LIR")}
     assert ratios.pop(near_fault.BEYOND) > 1.2
     assert max(ratios.values()) <= 1.0
 
 
-def test_a_cell_of_the_map_is_for_the_device_that_stands_or_is_lower():
+def test_a_cell_of_the_map_is_for_the_device_that_survives_or_is_lower():
     """One row: alike, lower drift, one of each, either alone, neither; 10 % are alike."""
     one = {"drift": [1.0, 0.8, 0.8, 1.0, 9.0, 9.0], "acceleration": [1.0, 1.05, 1.2, 1.0, 1.0, 1.0]}
     other = {"drift": [1.09, 1.0, 1.0, 9.0, 1.0, 9.0], "acceleration": [1.0] * 6}
-    lost = {"one": [0, 0, 0, 0, 1, 1], "other": [0, 0, 0, 1, 0, 1]}
+    lost = [0, 0, 0, 0, 1, 1], [0, 0, 0, 1, 0, 1]
+    cells = [{k: [row] for k, row in each.items()} for each in (one, other)]
     devices = {
-        name: {key: [row] for key, row in given.items()}
-        | {"lost": [lost[which]], "failed": [[0] * 6]}
-        for name, given, which in zip(PAIRS[PLAN], (one, other), lost, strict=True)
+        name: each | {"lost": [gone]}
+        for name, each, gone in zip(PAIRS[PLAN], cells, lost, strict=True)
     }
-    own = {"devices": devices, "velocities": [1.0]}
-    found = near_fault.verdicts(own, PLAN)[0]
-    words = [LOOKS[int(kind)][3] for kind in found]
-    assert words == [
-        "both stand, alike",
-        "both stand, LIR-DCFP better",
-        "both stand, one better in each",
-        "LIR-DCFP alone stands",
-        "DCFP alone stands",
-        "neither stands",
+    found = near_fault.verdicts({"devices": devices}, PLAN)[0]
+    assert [LOOKS[int(kind)][3] for kind in found] == [
+        "both survive, alike",
+        "both survive, LIR-DCFP better",
+        "both survive, one better in each",
+        "LIR-DCFP alone survives",
+        "DCFP alone survives",
+        "neither survives",
     ]
-    counted = near_fault.counts(own, PLAN)
+    counted = near_fault.counts({"devices": devices}, PLAN)
     assert sum(counted.values()) == 6
     assert near_fault.both(counted) == 3
-    assert near_fault.frontier(own, PAIRS[PLAN][0]) == [math.inf] * 6
+
+
+def test_cells_at_half_the_step_are_those_that_both_steps_have():
+    """Of cells of 1, 2 and 3 s the last is missing at half, the second fails there alone."""
+    columns = ["motion", "outcome", *(name for name, *_ in near_fault.QUANTITIES.values())]
+
+    def cells(*rows):
+        runs = pd.DataFrame([(*row, *[row[-1]] * 4) for row in rows], columns=columns)
+        return near_fault.cells_of(runs.assign(model="LIR", scale=1.0))
+
+    def pulse(shape, period, drift, outcome=COMPLETE):
+        return f"{shape} pulse of {period} s, 1 m/s", outcome, drift
+
+    whole = cells(
+        pulse("symmetric", 1, 0.02), pulse("antisymmetric", 1, 0.01),
+        pulse("symmetric", 2, 0.01), pulse("symmetric", 3, 0.06),
+    )  # fmt: skip
+    half = cells(
+        pulse("symmetric", 1, 0.01), pulse("antisymmetric", 1, 0.021),
+        pulse("symmetric", 2, 0.01, FAILURE),
+    )  # fmt: skip
+    assert whole["lost"].tolist() == [0.0, 0.0, 1.0]  # a drift above 5 %
+    found = near_fault.steps_of(whole, half)["LIR"]
+    counted = {key: found[key] for key in ("cells", "failed", "lost", "survived")}
+    assert counted == {"cells": 2, "failed": 1, "lost": 1, "survived": 1}
+    assert found["drift"] == pytest.approx([0.05, 0.05])  # of the worse shapes, 0.021 over 0.02
 
 
 def test_motions_have_the_names_that_the_numbers_look_for():

@@ -124,7 +124,7 @@ def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
     comparison = every[LEVELS[0]].comparison
     assert comparison is not None
     frames = comparison.frames
-    found: dict[str, Any] = {"devices": {name: _sizes(frame) for name, frame in frames.items()}}
+    found: dict[str, Any] = {"devices": {name: sizes_of(frame) for name, frame in frames.items()}}
     for level in LEVELS:
         tables = every[level]
         found[level] = {
@@ -137,7 +137,8 @@ def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
     return found
 
 
-def _sizes(frame: Frame) -> dict[str, Any]:
+def sizes_of(frame: Frame) -> dict[str, Any]:
+    """Return lengths [m], interface friction, ratio of the checks [-] and cost of a device."""
     bearings = bearings_of(frame)
     return {
         "plan": max(map(dish_diameter, bearings)),

@@ -1,43 +1,30 @@
-"""Numbers and figures of the map of near-fault pulses: which device stands, and which is better."""
+"""Numbers and map of near-fault pulses: which device survives, and which is better."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from frames import time_histories
 from frames.design.project.inputs import bearing_of
 from frames.plots import plot_style as ps
-from frames.risk.campaign.comparison import dish_diameter
-from frames.risk.campaign.devices import highest_ratio, moat_of
-from frames.risk.campaign.ductility import DUCTILITY, ductility
 from frames.risk.fragility.runs import COMPLETE, FAILURE
-from lir_element.units import STANDARD_GRAVITY
+from lir_element.units import STANDARD_GRAVITY as G
 from validation.page import number, table
-from validation.study.part import quietly
+from validation.study.device import sizes_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
-    import numpy.typing as npt
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from lir_element import LIRBearing
-
     Own = Mapping[str, Any]
 
-MOATS = 384, 517, 650
-"""Displacements at which the first bearing fails [mm]."""
-
-PLANS = 689, 838
-"""Diameters of the largest dish of pairs of equal plan [mm]."""
-
 BEYOND = "LIR-DCFP beyond the checks, moat 517 mm"
-SOFT = "DCFP, soft rims, moat 384 mm"
 DRIFT = 0.05
 """Storey drift from which a building counts as lost [-]: FEMA 356, collapse prevention of steel
 frames (table C1-3; to be confirmed)."""
@@ -46,23 +33,25 @@ APART = 0.1
 """Share by which demands of two devices must differ [-]: less is alike."""
 
 QUANTITIES = {
-    "acceleration": "floor acceleration in plan, mean",
-    "drift": "storey drift, mean",
-    "displacement": "bearing displacement",
-    "shear": "base shear over weight",
-    "rim": "rim force",
+    "acceleration": ("floor acceleration in plan, mean", "floor acceleration [g]", 1 / G, ".2f"),
+    "drift": ("storey drift, mean", "storey drift [%]", 100.0, ".2f"),
+    "displacement": ("bearing displacement", "displacement [mm]", 1e3, ".0f"),
+    "shear": ("base shear over weight", "base shear over weight [-]", 1.0, ".2f"),
+    "rim": ("rim force", "rim force [kN]", 1e-3, ".0f"),
 }
+"""Demands by name: the quantity, its text, a factor from SI, a format."""
+
 LIR_ONLY, LIR_BETTER, ALIKE, MIXED, PLAIN_BETTER, PLAIN_ONLY, NEITHER = range(7)
 LOOKS = {
-    LIR_ONLY: ("#1a1a1a", "", "L", "LIR-DCFP alone stands"),
-    LIR_BETTER: ("#777777", "", "L", "both stand, LIR-DCFP better"),
-    ALIKE: ("#ffffff", "", "=", "both stand, alike"),
-    MIXED: ("#ffffff", "..", "", "both stand, one better in each"),
-    PLAIN_BETTER: ("#d9d9d9", "", "D", "both stand, DCFP better"),
-    PLAIN_ONLY: ("#d9d9d9", "////", "", "DCFP alone stands"),
-    NEITHER: ("#ffffff", "xxxx", "", "neither stands"),
+    LIR_ONLY: ("#1a1a1a", "", "L", "LIR-DCFP alone survives"),
+    LIR_BETTER: ("#777777", "", "L", "both survive, LIR-DCFP better"),
+    ALIKE: ("#ffffff", "", "=", "both survive, alike"),
+    MIXED: ("#ffffff", "..", "", "both survive, one better in each"),
+    PLAIN_BETTER: ("#d9d9d9", "", "D", "both survive, DCFP better"),
+    PLAIN_ONLY: ("#d9d9d9", "///", "", "DCFP alone survives"),
+    NEITHER: ("#ffffff", "xxx", "", "neither survives"),
 }
-"""Of what a cell says: face, hatch, letter, legend; apart in grey, too."""
+"""Verdicts of cells: face, hatch, letter, legend; apart in grey, too."""
 
 
 def lir(moat: int) -> str:
@@ -75,148 +64,80 @@ def plain(moat: int) -> str:
     return f"DCFP, moat {moat} mm"
 
 
-PAIRS = {
-    "plan 689 mm": (lir(517), plain(384)),
-    "plan 838 mm": (lir(650), plain(517)),
-    **{f"moat {moat} mm": (lir(moat), plain(moat)) for moat in MOATS},
-    "beyond": (BEYOND, plain(384)),
-    "soft": (lir(517), SOFT),
-}
-"""Devices that are set side by side: of equal plan, of equal moat, beyond the checks, soft rims."""
-
-HALVED = tuple((name, number, 0.8) for number in (3, 6) for name in PAIRS["plan 689 mm"])
-"""Runs at half the step, too: device, number of the pulse, peak velocity [m/s]."""
-
-COMPARED = {
-    DUCTILITY: "ductility",
-    QUANTITIES["drift"]: "storey drift",
-    QUANTITIES["acceleration"]: "floor acceleration",
-    QUANTITIES["displacement"]: "bearing displacement",
-    "interface slip": "interface slip",
-}
-"""Demands of these runs, and their text."""
-
 PLAN, MOAT = "plan 689 mm", "moat 517 mm"
-"""The pairs of the map."""
+PAIRS = {
+    PLAN: (lir(517), plain(384)),
+    "plan 838 mm": (lir(650), plain(517)),
+    **{f"moat {moat} mm": (lir(moat), plain(moat)) for moat in (384, 517, 650)},
+    "beyond": (BEYOND, plain(384)),
+    "soft": (lir(517), "DCFP, soft rims, moat 384 mm"),
+}
+"""Devices that are compared: of equal plan, of equal moat, beyond the checks, soft rims."""
 
 
 def numbers(every: Mapping[str, Any]) -> dict[str, Any]:
-    """Return of each device the worse of both shapes, by velocity and period; lost is infinite."""
+    """Return cells by device, velocity and period; sizes; differences at half the step."""
     tables = every["near_fault"]
-    frames = tables.frames
-    runs = tables.campaign.to_dataframe()
-    words = runs["motion"].str.extract(r"^(\w+) pulse of ([\d.]+) s")
-    runs = runs.assign(shape=words[0], period=words[1].astype(float))
-    runs["failed"] = runs["outcome"] == FAILURE
-    runs["lost"] = (runs["outcome"] != COMPLETE) | (runs[QUANTITIES["drift"]] > DRIFT)
-    found: dict[str, Any] = {}
-    for device, own in runs.groupby("model"):
-        grid = own.groupby(["scale", "period"])
-        kept: dict[str, Any] = {key: _square(grid[key].max()) for key in ("failed", "lost")}
-        for key, quantity in QUANTITIES.items():
-            kept[key] = _square(grid[quantity].max())
-        found[str(device)] = kept
+    whole, half = (cells_of(every[name].campaign.to_dataframe()) for name in ("near_fault", "step"))
+    pulses = tables.file.motions.pulses
     return {
-        "velocities": sorted(set(runs["scale"])),
-        "periods": sorted(set(runs["period"])),
-        "ratios": sorted(tables.file.motions.pulses.period_ratios),
-        "unknown": int((~runs["outcome"].isin([COMPLETE, FAILURE])).sum()),
-        "devices": found,
-        "period": bearing_of(tables.file.bearing).period,
-        "sizes": {
-            name: sizes_of([link.bearing for link in frame.bearings.values()])
-            for name, frame in frames.items()
+        "velocities": sorted(pulses.velocities),
+        "ratios": sorted(pulses.period_ratios),
+        "devices": {
+            str(device): {key: own[key].unstack().round(5).to_numpy().tolist() for key in own}
+            for device, own in whole.groupby(level=0)
         },
-        "halved": at_two_steps(tables),
-        "ratio": highest_ratio(frames[lir(517)]),
+        "period": bearing_of(tables.file.bearing).period,
+        "sizes": {name: sizes_of(frame) for name, frame in tables.frames.items()},
+        "steps": steps_of(whole, half),
     }
 
 
-def at_two_steps(tables: Any) -> list[dict[str, Any]]:
-    """Return demands of runs at the step of the campaign and at half."""
-    analysis, rows = tables.file.analysis, []
-    motions = list(tables.campaign.motions.items())
-    for model, which, scale in HALVED:
-        name, motion = motions[which % len(motions)]
-        frame, runs = tables.frames[model], []
-        for dt in (analysis.dt, 0.5 * analysis.dt):
-            options = {"scales": [scale], "dt": dt, "level": analysis.level}
-            with quietly():
-                data = time_histories({model: frame}, {name: motion}, **options)
-            peaks = data["peak"].isel(run=0).to_series().to_dict()
-            peaks[DUCTILITY] = float(ductility(data, frame)[0])
-            values = {q: float(peaks[q]) if np.isfinite(peaks[q]) else None for q in COMPARED}
-            runs.append({"status": str(data["status"].item())} | values)
-        rows.append({"device": model, "motion": name, "im": scale, "runs": runs})
-    return rows
+def cells_of(runs: pd.DataFrame) -> pd.DataFrame:
+    """Return the worse of both shapes by device, velocity and period of the pulse."""
+    period = runs["motion"].str.extract(r" pulse of ([\d.]+) s", expand=False).astype(float)
+    cells = pd.DataFrame({key: runs[name] for key, (name, *_) in QUANTITIES.items()})
+    cells["failed"] = runs["outcome"] == FAILURE
+    cells["lost"] = (runs["outcome"] != COMPLETE) | (cells["drift"] > DRIFT)
+    return cells.astype(float).groupby([runs["model"], runs["scale"], period]).max()
 
 
-def steps_said(rows: Sequence[dict[str, Any]]) -> str:
-    """Return how far runs at two steps are apart."""
-    pairs, words = [row["runs"] for row in rows], []
-    apart = [row["device"] for row in rows if len({run["status"] for run in row["runs"]}) > 1]
-    for quantity, text in COMPARED.items():
-        far = [
-            abs(whole[quantity] / half[quantity] - 1.0)
-            for whole, half in pairs
-            if whole["status"] == half["status"] == "ok" and (half[quantity] or 0.0) > 1e-3
-        ]
-        words += [f"{100.0 * max(far):.1f} % of {text}"] if far else []
-    alike = f"ends differ in {'; '.join(apart)}" if apart else "all end alike"
-    return f"{alike}; demands of complete runs differ by at most {', '.join(words) or 'nothing'}."
-
-
-def sizes_of(bearings: Sequence[LIRBearing]) -> list[float]:
-    """Return plan, way to the rims, least slider, moat [m], friction of the interface [-]."""
-    least = min(each.slider_radius for each in bearings)
-    first = bearings[0]
-    friction = 0.0 if first.is_dcfp else first.interface_friction
-    way = min(each.lateral_capacity for each in bearings)
-    return [max(map(dish_diameter, bearings)), way, least, moat_of(bearings), friction]
-
-
-def _square(values: Any) -> list[list[float]]:
-    found: list[list[float]] = values.unstack().to_numpy().astype(float).round(5).tolist()
+def steps_of(whole: pd.DataFrame, half: pd.DataFrame) -> dict[str, dict[str, Any]]:
+    """Return by device cells, those that end otherwise, median and largest change of demands."""
+    whole, half = whole.align(half, join="inner", axis=0)
+    apart = (half / whole - 1.0).abs()[half["lost"] + whole["lost"] < 1.0]
+    found = {}
+    for device, own in (half != whole).groupby(level=0):
+        changes = apart[apart.index.isin(own.index)]
+        found[str(device)] = {
+            "cells": len(own),
+            **{key: int(own[key].sum()) for key in ("failed", "lost")},
+            "survived": len(changes),
+            **{key: [changes[key].median(), changes[key].max()] for key in list(QUANTITIES)[:3]},
+        }
     return found
 
 
-def verdicts(own: Own, pair: str, keys: Sequence[str] = ("acceleration", "drift")) -> Any:
-    """Return by velocity and period which device of a pair stands, or is better by all keys.
-
-    Shapes: result (velocities, periods), of the numbers of `LOOKS`.
-    """
-    one, other = (own["devices"][name] for name in PAIRS[pair])
-    stands, holds = (~np.array(each["lost"], dtype=bool) for each in (one, other))
-    ratios = np.array([np.array(one[key]) / np.array(other[key]) for key in keys])
-    less, more = ratios < 1.0 - APART, ratios > 1.0 / (1.0 - APART)
-    found = np.full(stands.shape, ALIKE)
-    found[less.any(axis=0) & ~more.any(axis=0)] = LIR_BETTER
-    found[more.any(axis=0) & ~less.any(axis=0)] = PLAIN_BETTER
-    found[less.any(axis=0) & more.any(axis=0)] = MIXED
-    found[stands & ~holds], found[holds & ~stands] = LIR_ONLY, PLAIN_ONLY
-    found[~stands & ~holds] = NEITHER
-    return found
+def verdicts(own: Own, pair: str) -> Any:
+    """Return verdicts on a pair, numbers of `LOOKS`, of shape (velocities, periods)."""
+    devices = [own["devices"][name] for name in PAIRS[pair]]
+    one, other = (np.array([each["acceleration"], each["drift"]]) for each in devices)
+    lost, lost_too = (np.array(each["lost"], dtype=bool) for each in devices)
+    less, more = ((a < (1.0 - APART) * b).any(axis=0) for a, b in ((one, other), (other, one)))
+    kinds = NEITHER, LIR_ONLY, PLAIN_ONLY, MIXED, LIR_BETTER, PLAIN_BETTER  # the first that is so
+    so = lost & lost_too, lost_too, lost, less & more, less, more
+    return np.select(so, kinds, ALIKE)
 
 
-def counts(own: Own, pair: str, *keys: str) -> dict[int, int]:
-    """Return how many cells of a pair say what, by all keys that are given."""
-    found = verdicts(own, pair, keys or ("acceleration", "drift"))
+def counts(own: Own, pair: str) -> dict[int, int]:
+    """Return the number of cells of a pair by verdict."""
+    found = verdicts(own, pair)
     return {kind: int((found == kind).sum()) for kind in LOOKS}
 
 
-def frontier(own: Own, device: str, key: str = "failed") -> list[float]:
-    """Return by period the least velocity at which a device fails [m/s]; inf if at none."""
-    over, at = np.array(own["devices"][device][key], dtype=bool), np.array(own["velocities"])
-    return [float(at[column].min()) if column.any() else np.inf for column in over.T]
-
-
-def frontiers(own: Own) -> str:
-    """Return the table of least velocities at which bearings fail, by period."""
-    lines = [
-        [name, *("-" if np.isinf(v) else f"{v:g}" for v in frontier(own, name))]
-        for name in own["devices"]
-    ]
-    return table(["device", *(f"{ratio:g}" for ratio in own["ratios"])], lines)
+def both(counted: Mapping[int, int]) -> int:
+    """Return in how many cells both devices survive."""
+    return sum(counted[kind] for kind in (LIR_BETTER, ALIKE, MIXED, PLAIN_BETTER))
 
 
 def failed(own: Own, device: str) -> int:
@@ -224,147 +145,71 @@ def failed(own: Own, device: str) -> int:
     return int(np.sum(own["devices"][device]["failed"]))
 
 
-def ahead(counted: Mapping[int, int]) -> str:
-    """Return the device that more cells are for."""
-    one, other = (
-        sum(counted[kind] for kind in kinds)
-        for kinds in ((LIR_ONLY, LIR_BETTER), (PLAIN_ONLY, PLAIN_BETTER))
-    )
-    return "LIR-DCFP" if one > other else "DCFP" if other > one else "cheaper one"
-
-
-def both(counted: Mapping[int, int]) -> int:
-    """Return in how many cells both devices stand."""
-    return sum(counted[kind] for kind in (LIR_BETTER, ALIKE, MIXED, PLAIN_BETTER))
-
-
-UNITS = {
-    "acceleration": ("floor acceleration [g]", 1.0 / STANDARD_GRAVITY, ".2f"),
-    "drift": ("storey drift [%]", 100.0, ".2f"),
-    "displacement": ("displacement [mm]", 1e3, ".0f"),
-    "shear": ("base shear over weight [-]", 1.0, ".2f"),
-    "rim": ("rim force [kN]", 1e-3, ".0f"),
-}
-
-
 def medians(own: Own, pair: str) -> dict[str, list[float]]:
-    """Return medians of both devices, over the cells in which both stand and a rim is met."""
+    """Return medians of both devices, over the cells in which both survive and a rim is met."""
     devices = [own["devices"][name] for name in PAIRS[pair]]
-    stand = ~np.any([each["lost"] for each in devices], axis=0)
-    met = stand & np.any([np.array(each["rim"]) > 0.0 for each in devices], axis=0)
+    met = ~np.any([each["lost"] for each in devices], axis=0)
+    met &= np.any([each["rim"] for each in devices], axis=0)
     return {
         key: [
             factor * float(np.median(np.array(each[key])[met])) if met.any() else np.nan
             for each in devices
         ]
-        for key, (_, factor, _) in UNITS.items()
+        for key, (*_, factor, _) in QUANTITIES.items()
     } | {"cells": [float(met.sum())]}
 
 
 def pairs_table(own: Own) -> str:
-    """Return what pairs of devices say: counts of cells, and medians where a rim is met."""
+    """Return counts of cells of all pairs, and medians of the cells in which a rim is met."""
     lines = []
-    for pair in PAIRS:
-        counted, found = counts(own, pair), medians(own, pair)
-        values = [
-            " / ".join(number(v, form) for v in found[key]) for key, (_, _, form) in UNITS.items()
-        ]
-        lines.append([" / ".join(PAIRS[pair]), *(f"{counted[k]}" for k in LOOKS), *values])
-    heads = [text for *_, text in LOOKS.values()]
-    return table(["LIR-DCFP / DCFP", *heads, *(text for text, _, _ in UNITS.values())], lines)
-
-
-def devices_table(own: Own) -> str:
-    """Return the devices: dish, way to the rims, friction of the interface, moat."""
-    lines = [
-        [name, *(f"{1e3 * v:.0f}" for v in (plan, way, slider, moat)), f"{mu:.3f}" if mu else "-"]
-        for name, (plan, way, slider, moat, mu) in own["sizes"].items()
-    ]
-    heads = "plan [mm]", "way to the rims [mm]", "least slider radius [mm]", "moat [mm]", "mu_h [-]"
-    return table(["device", *heads], lines)
+    for pair, names in PAIRS.items():
+        found = medians(own, pair)
+        values = (
+            " / ".join(number(value, form) for value in found[key])
+            for key, (*_, form) in QUANTITIES.items()
+        )
+        lines.append([" / ".join(names), *map(str, counts(own, pair).values()), *values])
+    heads = *(text for *_, text in LOOKS.values()), *(text for _, text, *_ in QUANTITIES.values())
+    return table(["LIR-DCFP / DCFP", *heads], lines)
 
 
 def figures(campaigns: object, own: Own) -> dict[str, Figure]:
-    """Return the figures by name."""
+    """Return the map: a panel each limited plan (above) and moat (below)."""
     del campaigns
-    return {"map": map_figure(own), "decision": decision_figure(own)}
-
-
-def map_figure(own: Own) -> Figure:
-    """Return who stands and who is better in acceleration and drift, at equal plan and moat."""
-    figure = ps.new_figure(5.6)
+    figure, pairs = ps.new_figure(5.2), list(PAIRS)
     grid = ps.grid_of(figure, 2, 3, share_x=True, share_y=True)
-    keys = {"failure of a bearing": (), "floor acceleration": ("acceleration",)}
-    for row, pair in zip(grid, (PLAN, MOAT), strict=True):
-        for panel, (title, of) in zip(row, {**keys, "drift": ("drift",)}.items(), strict=True):
-            found = verdicts(own, pair, of) if of else _by_failure(own, pair)
-            draw_cells(panel, own, pair, found, f"{title},\nequal {pair}")
-    _labels(grid)
-    ps.add_legend(figure, legend_handles(), columns=3)
-    return figure
-
-
-def _by_failure(own: Own, pair: str) -> npt.NDArray[Any]:
-    # Who stands, by failure of bearings alone.
-    one, other = (np.array(own["devices"][name]["failed"], dtype=bool) for name in PAIRS[pair])
-    found = np.where(one, PLAIN_ONLY, LIR_ONLY)
-    found[~one & ~other], found[one & other] = ALIKE, NEITHER
-    return found
-
-
-def decision_figure(own: Own) -> Figure:
-    """Return which device to choose, a panel each limited plan or moat."""
-    figure = ps.new_figure(5.2)
-    grid = ps.grid_of(figure, 2, 3, share_x=True, share_y=True)
-    pairs = [[f"plan {plan} mm" for plan in PLANS], [f"moat {moat} mm" for moat in MOATS]]
-    for row, own_pairs in zip(grid, pairs, strict=True):
-        for panel, pair in zip(row, own_pairs, strict=False):
-            draw_cells(panel, own, pair, verdicts(own, pair), f"limited: {pair}")
+    for row, shown in zip(grid, (pairs[:2], pairs[2:5]), strict=True):
+        for panel, pair in zip(row, shown, strict=False):
+            draw_cells(panel, own, pair)
+            ps.caption(panel, title=f"equal {pair}")
+        ps.caption(row[0], y="peak velocity [m/s]")
+    for panel in grid[1]:
+        ps.caption(panel, x="T_p / T_b [-]")
     grid[0][2].set_axis_off()
     grid[0][2].legend(handles=legend_handles(), loc="center", fontsize=ps.SMALL, frameon=False)
-    _labels(grid)
-    return figure
+    return {"map": figure}
 
 
-def _labels(grid: Sequence[Sequence[Axes]]) -> None:
-    for row in grid:
-        ps.caption(row[0], y="peak velocity [m/s]")
-    for panel in grid[-1]:
-        ps.caption(panel, x="T_p / T_b [-]")
-
-
-def draw_cells(panel: Axes, own: Own, pair: str, found: npt.NDArray[Any], title: str) -> None:
+def draw_cells(panel: Axes, own: Own, pair: str) -> None:
     """Draw cells, and lines below the first cell of each period in which a bearing fails."""
-    panel.grid(visible=False)
+    found = verdicts(own, pair)
     for (y, x), kind in np.ndenumerate(found):
         face, hatch, letter, _ = LOOKS[int(kind)]
-        corner, edge = (float(x) - 0.5, float(y) - 0.5), ps.GREY
-        panel.add_patch(
-            Rectangle(corner, 1.0, 1.0, facecolor=face, hatch=hatch, edgecolor=edge, linewidth=0.3)
-        )
-        if not hatch:
-            ink = "white" if kind in (LIR_ONLY, LIR_BETTER) else "black"
-            panel.text(x, y, letter, ha="center", va="center", fontsize=5.5, color=ink)
-    velocities, edges = own["velocities"], np.arange(found.shape[1] + 1) - 0.5
-    for name, line in zip(PAIRS[pair], ("-", "--"), strict=True):
-        rows = [
-            len(velocities) if np.isinf(v) else velocities.index(v) for v in frontier(own, name)
-        ]
+        look: dict[str, Any] = {"facecolor": face, "hatch": hatch, "edgecolor": ps.GREY}
+        panel.add_patch(Rectangle((x - 0.5, y - 0.5), 1.0, 1.0, linewidth=0.3, **look))
+        ink = "white" if kind in (LIR_ONLY, LIR_BETTER) else "black"
+        panel.text(x, y, letter, ha="center", va="center", fontsize=6.0, color=ink)
+    for name, line in zip(PAIRS[pair], ps.LINES, strict=False):
+        fails = np.array(own["devices"][name]["failed"], dtype=bool)
+        first = np.where(fails.any(axis=0), fails.argmax(axis=0), len(fails)) - 0.5
         for color, width, style in (("white", 3.2, "-"), ("black", 1.5, line)):
-            panel.stairs(
-                np.array(rows) - 0.5,
-                edges,
-                baseline=None,
-                color=color,
-                linewidth=width,
-                linestyle=style,
-            )
+            look = {"color": color, "linewidth": width, "linestyle": style}
+            panel.stairs(first, np.arange(len(first) + 1) - 0.5, baseline=None, **look)
+    panel.grid(visible=False)
     panel.set_xlim(-0.5, found.shape[1] - 0.5)
     panel.set_ylim(-0.5, found.shape[0] - 0.5)
     panel.set_xticks(range(found.shape[1]), [f"{ratio:g}" for ratio in own["ratios"]], rotation=90)
-    panel.set_yticks(range(found.shape[0]), [f"{v:g}" for v in velocities])
-    ps.caption(panel, title=title)
-    panel.title.set_fontsize(ps.SMALL)
+    panel.set_yticks(range(found.shape[0]), [f"{v:g}" for v in own["velocities"]])
 
 
 def legend_handles() -> list[Any]:

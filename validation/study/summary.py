@@ -159,7 +159,7 @@ def page(parts: Parts, kept: Own) -> str:
 
 
 def decision_figure(parts: Parts) -> Figure:
-    """Return collapse margins over plan and moat, and which device stands under which pulse."""
+    """Return collapse margins over plan and moat, and which device survives which pulse."""
     own, near = parts["device"]["own"], parts["near_fault"]["own"]
     margins = parts["device"]["campaigns"]["contact"]["tables"]["margins"].set_index("device")
     figure = ps.new_figure(5.6)
@@ -167,8 +167,9 @@ def decision_figure(parts: Parts) -> Figure:
     for panel, key in zip(above, ("plan", "moat"), strict=True):
         device.margins_over(panel, own, margins, key)
     for panel, pair in zip(below, (pulses.PLAN, pulses.MOAT), strict=True):
-        pulses.draw_cells(panel, near, pair, pulses.verdicts(near, pair), f"pulses, equal {pair}")
-        ps.caption(panel, x="T_p / T_b [-]", y="peak velocity [m/s]")
+        pulses.draw_cells(panel, near, pair)
+        title, x, y = f"pulses, equal {pair}", "T_p / T_b [-]", "peak velocity [m/s]"
+        ps.caption(panel, x=x, y=y, title=title)
     device.legend(figure)
     look: dict[str, Any] = {"ncols": 3, "fontsize": ps.SMALL, "frameon": False}
     figure.legend(handles=pulses.legend_handles(), loc="outside lower center", **look)
