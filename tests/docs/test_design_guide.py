@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 TEXT = "\n".join(
     (ROOT / "docs" / f"design_{name}.md").read_text(encoding="utf-8")
     for name in ("guide", "comparison")
-)
+).replace("\u00a0", " ")  # between a number and its unit
 FLAT = " ".join(TEXT.split())
 TOML = re.findall(r"```toml\n(.*?)```", TEXT, re.DOTALL)[0]
 FOUND = json.loads((ROOT / "docs/validation/worked_building.json").read_text(encoding="utf-8"))
