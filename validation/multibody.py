@@ -229,7 +229,7 @@ class _Model:
         seen = (*self.vertices, self.plate)
         speeds = [np.array(system.GetMarkerOutput(m, kinds.Velocity)) for m in seen]
         for k, sliding in enumerate((speeds[0], speeds[1] - speeds[2])):
-            law = self.bearing.frictions[k]
+            law: Any = self.bearing.frictions[k]
             lower = (law.f_max - law.f_min) * math.exp(-law.rate * math.hypot(*sliding[:2]))
             for contact in self.surfaces[k]:
                 system.SetObjectParameter(contact, "dynamicFriction", law.f_max - lower)
@@ -247,7 +247,9 @@ class _Model:
             for contact in (*self.surfaces[1], self.rims[1])
         ]
         total = np.sum(forces, axis=0)
-        rims = [np.linalg.norm(system.GetObjectOutput(rim, kinds.Force)) for rim in self.rims]
+        rims = [
+            float(np.linalg.norm(system.GetObjectOutput(rim, kinds.Force))) for rim in self.rims
+        ]
         self.rows.append((time, plate[0], slip[0], total[0], abs(total[2]), max(rims)))
         return True
 

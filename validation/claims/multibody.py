@@ -189,7 +189,7 @@ def chi_chi(folder: Path) -> tuple[list[Check], dict[str, Measures], float]:
         return [], {}, 0.0
     factor, begin, duration = CHI_CHI
     part = record.trimmed(begin, begin + duration - record.dt)
-    motion = GroundMotion(x=factor * part.x, dt=part.dt)
+    motion = GroundMotion(x=factor * part.components[:, 0], dt=part.dt)
     found = multibody_history(example_bearing(), EXAMPLE_MASS, motion, duration)
     fine = multibody_history(example_bearing(), EXAMPLE_MASS, motion, 0.75 * duration, FINE)
     elastic = (ELASTIC[0], NEARLY_RIGID, 0.1 * NEARLY_RIGID)

@@ -165,7 +165,7 @@ def page(folder: Path | None) -> Page:
     more, rise_plain, plain = comparison(data, record)
     start, rises = impact(data)
     contact = float(data["time"][start])
-    moment = np.abs(data["bearing_moment"].sel(axis="y", bearing=NAME)).max("time")
+    moment = abs(data["bearing_moment"].sel(axis="y", bearing=NAME)).max("time")
     return Page(
         CLAIM,
         f"impact at {contact:.3f} s, peak {peak(data):.0f} mm, offset {offset(data):.0f} mm; in the impact the "

@@ -136,7 +136,7 @@ def bearing_of(setting: Setting) -> LIRBearing:
 def given_as_printed(bearing: LIRBearing, what: Sequence[str]) -> LIRBearing:
     """Return the bearing whose mapping hands an element the numbers of another one unmapped."""
     radius, length = bearing.radii[0], bearing.effective_radius
-    law = bearing.frictions[0]
+    law: Any = bearing.frictions[0]
     factor = length / (2.0 * radius) if "friction" in what else 1.0
     rate = law.rate * (length / radius if "rate" in what else 1.0)
     slip = bearing.yield_displacement * (radius / length if "yield" in what else 1.0)

@@ -10,7 +10,7 @@ Structure and damping are the same in both (see `opensees_building`).
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -72,7 +72,7 @@ def in_opensees(
 
     Shapes: result (n, 3).
     """
-    recordings = []
+    recordings: list[Any] = []
 
     def place(tag: int, i: int, j: int, bearing: LIRBearing) -> None:
         bearing_element(tag, i, j, bearing, level=level, route=route)  # type: ignore[arg-type]

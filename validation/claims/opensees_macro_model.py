@@ -31,13 +31,14 @@ from validation.claims.opensees_macro_runs import (
     scenes_runs,
     settings_runs,
 )
-from validation.claims.static_test import LOAD, REACH, STEP
+from validation.claims.static_test import LOAD, STEP
 from validation.opensees.model import ABOVE
 from validation.opensees.trials import Device, Shaken, macro, pull, shake
 from validation.page import Check, Claim, Page, render, run, stated
 from validation.scenes import (
     EXAMPLE_MASS,
     EXAMPLE_RECORD,
+    REACH,
     example_bearing,
     static_bearing,
     static_path,

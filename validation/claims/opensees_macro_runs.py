@@ -13,9 +13,9 @@ from matplotlib.lines import Line2D
 from frames import time_history
 from frames.plots import plot_style as ps
 from lir_element import AnalysisWarning
-from validation.claims.static_test import REACH, STEP
+from validation.claims.static_test import STEP
 from validation.opensees.trials import PLAIN, ROBUST, Shaken, Steps, macro, shake
-from validation.scenes import EXAMPLE_MASS, MASS, example_bearing, made_scenes
+from validation.scenes import EXAMPLE_MASS, MASS, REACH, example_bearing, made_scenes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from frames import GroundMotion
     from lir_element.layout import Floats
-    from validation.claims.opensees_macro_runs import Loop
 
 NAMES = {PLAIN: "Newton", ROBUST: "with fallback"}
 DURATION = 20.0
@@ -80,7 +79,8 @@ def settings_runs(motion: GroundMotion) -> list[Ended]:
     """Run the record with several settings of the macro-model."""
     found = []
     for name, options, dt, algorithms in SETTINGS:
-        make, how = partial(macro, **options), {"dt": dt, "algorithms": algorithms}
+        make = partial(macro, **options)
+        how: dict[str, Any] = {"dt": dt, "algorithms": algorithms}
         done = shake(make, example_bearing(), EXAMPLE_MASS, motion, duration=DURATION, **how)
         model = (name, f"{1e3 * dt:g}", NAMES[algorithms])
         found.append(of(model, done, done.iterations / max(done.steps, 1)))
@@ -108,10 +108,8 @@ def scenes_runs() -> tuple[list[Ended], dict[str, dict[str, Floats]]]:
         for algorithms, gaps in ((PLAIN, 16), (ROBUST, 16), (PLAIN, 8)):
             if gaps == 8 and scene.name != SCENES[0]:
                 continue
-            make, how = (
-                partial(macro, directions=gaps),
-                {"dt": SCENE_STEP, "algorithms": algorithms},
-            )
+            make = partial(macro, directions=gaps)
+            how: dict[str, Any] = {"dt": SCENE_STEP, "algorithms": algorithms}
             done = shake(make, scene.bearing, MASS, scene.motion, duration=scene.duration, **how)
             axial = float(-done.force[:, 2].min() / -done.force[0, 2])
             name = f"macro-model, {gaps} gaps"

@@ -90,7 +90,7 @@ def explicit(dt: float) -> Rung:
 def static_part() -> tuple[list[Check], list[str], dict[str, loops.Loop]]:
     """Run the quasi-static loops; return checks, tables and loops."""
     ours = {scale: loops.here(scale) for scale in (1.0, TENTH)}
-    found = {
+    found: dict[str, dict[float, loops.Loop]] = {
         kind: {1.0: loops.there(kind), TENTH: loops.there(kind, TENTH, finer=FINER.get(kind, 1))}
         for kind in BUILTIN_KINDS
     }

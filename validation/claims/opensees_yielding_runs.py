@@ -138,17 +138,12 @@ def equipped(law: Law) -> Frame:
 
 def hinged(on: LIRBearing) -> Frame:
     """Return a moment frame of one bay and two storeys with hinges, its members free of shear."""
+    sections: dict[str, Any] = {
+        name: replace(section, shear_area_y=math.inf, shear_area_z=math.inf)
+        for name, section in SECTIONS.items()
+    }
     frame = moment_frame(
-        (1, 1),
-        2,
-        bearing=on,
-        damping=None,
-        hinges=HINGES,
-        floor_load=3000.0,
-        **{
-            name: replace(section, shear_area_y=math.inf, shear_area_z=math.inf)
-            for name, section in SECTIONS.items()
-        },
+        (1, 1), 2, bearing=on, damping=None, hinges=HINGES, floor_load=3000.0, **sections
     )
     for name in frame.nodes:
         if not name.startswith("ground"):
@@ -200,7 +195,7 @@ class _Parts:
     stiffness: FloatArray
 
 
-def _links(ops: Any, frame: Frame, built: Built, names: list[str]) -> tuple[Any, Any]:
+def _links(ops: Any, frame: Frame, built: Built, names: list[str]) -> tuple[Any, ...]:
     # Gaps of OpenSees face the other way.
     tags = [built.links[name] for name in names]
     signs = [-1.0 if isinstance(link.law, Gap | HertzGap) else 1.0 for link in frame.links.values()]
@@ -210,8 +205,9 @@ def _links(ops: Any, frame: Frame, built: Built, names: list[str]) -> tuple[Any,
     )
 
 
-def _hinges(ops: Any, _: Frame, built: Built, names: list[str]) -> tuple[Any, Any]:
-    d, f = [], []
+def _hinges(ops: Any, _: Frame, built: Built, names: list[str]) -> tuple[Any, ...]:
+    d: list[float] = []
+    f: list[float] = []
     for name in names:
         tag, end = built.members[name[:-2]], "ij".index(name[-1])
         d.extend(plastic_rotations(ops, tag)[end])

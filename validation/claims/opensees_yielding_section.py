@@ -10,7 +10,7 @@ import numpy as np
 
 from frames import Frame
 from frames.assembly.assemble import assemble
-from frames.bundles.nonlinear_data import STATE_SIZE
+from frames.assembly.system import STATE_SIZE
 from frames.kernels.hinges import hinged_member
 from frames.laws import PlasticHinge
 from frames.library.models import DEFAULT_COLUMN
@@ -105,7 +105,8 @@ def here(bearing: LIRBearing) -> Path:
         force = stiffness @ d + beyond
         found[k] = force[0], force[3], new[1]
         old[:] = new
-    return Path(*found.T, drift, stretch)
+    axial, moment, rotation = found.T
+    return Path(axial, moment, rotation, drift, stretch)
 
 
 def in_opensees(bearing: LIRBearing) -> Path:
@@ -124,7 +125,8 @@ def in_opensees(bearing: LIRBearing) -> Path:
                 advance(ops, 1)
             force = ops.eleResponse(COLUMN, "localForce")
             found[k] = force[6], force[4], plastic_rotations(ops, COLUMN)[0][0]
-    return Path(*found.T, drift, stretch)
+    axial, moment, rotation = found.T
+    return Path(axial, moment, rotation, drift, stretch)
 
 
 def _place(ops: Any, frame: Frame) -> None:

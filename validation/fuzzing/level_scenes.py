@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -50,14 +50,16 @@ def random_level_scene(
     width = bearing.effective_radius * rng.uniform(1.0, 4.0)
     load = bearing.resolved()["design_load"] / STANDARD_GRAVITY * rng.uniform(0.4, 1.6)
     masses, stiffness, base = storey_values(rng, places * load)
+    height = float(bearing.effective_radius * rng.uniform(0.5, 2.0))
+    off_x, off_y = rng.uniform(-0.05, 0.05, 2).tolist()
     model = shear_building(
         bearing,
         masses,
         stiffness,
         base_mass=base,
-        storey_height=float(bearing.effective_radius * rng.uniform(0.5, 2.0)),
+        storey_height=height,
         plan=(bays, width),
-        eccentricity=tuple(float(share) for share in rng.uniform(-0.05, 0.05, 2)),
+        eccentricity=(off_x, off_y),
     )
     with warnings.catch_warnings(
         action="ignore", category=MotionWarning
@@ -74,9 +76,10 @@ def with_unlike_friction(rng: np.random.Generator, bearing: LIRBearing) -> LIRBe
     shares = [2.0 * ratio / (1.0 + ratio), 2.0 / (1.0 + ratio)]
     if rng.random() < 0.5:
         shares.reverse()
+    laws: tuple[Any, ...] = bearing.frictions
     bottom, top = (
         replace(law, f_max=share * law.f_max, f_min=share * law.f_min)
-        for law, share in zip(bearing.frictions, shares, strict=True)
+        for law, share in zip(laws, shares, strict=True)
     )
     high = max(bearing.interface_friction, 1.1 * max(bottom.f_max, top.f_max))
     with warnings.catch_warnings(action="ignore", category=DesignWarning):

@@ -48,16 +48,17 @@ def sound(rng: np.random.Generator) -> Document:
         structure["eccentricity"] = [0.05, round(float(rng.uniform(0.0, 0.1)), 3)]
     radius, height = round(float(rng.uniform(1.2, 2.4)), 2), round(float(rng.uniform(160, 240)))
     friction = round(float(rng.uniform(0.03, 0.07)), 3)
+    spectra: Document = {
+        "ASCE 7-22": {"s_ms": 1.0, "s_m1": 0.5},
+        "EN 1998": {"a_g": "2.5 m/s2", "ground_type": "B", "kind": 1},
+        "NCh2745": {"soil": "II", "zone": 2},
+    }
     found: Document = {
         "project": {"name": "Random", "code": code},
         "structure": structure,
         **({} if loads is None else {"loads": loads}),
         "superstructure": {"R": 5.0, "importance": 1.0},
-        "spectrum": {
-            "ASCE 7-22": {"s_ms": 1.0, "s_m1": 0.5},
-            "EN 1998": {"a_g": "2.5 m/s2", "ground_type": "B", "kind": 1},
-            "NCh2745": {"soil": "II", "zone": 2},
-        }[code],
+        "spectrum": spectra[code],
         "motions": {"folder": "motions", "scale": round(float(rng.uniform(0.5, 1.5)), 2)},
         "bearing": {
             "radius": f"{radius:g} m",

@@ -17,7 +17,6 @@ from validation.fuzzing.motions import random_motion
 if TYPE_CHECKING:
     from frames import GroundMotion
     from lir_element import LIRBearing
-    from validation.fuzzing.scenes import Scene
 
 MODELS = {"mass": 0.72, "tilting mass": 0.06, "stick": 0.09, "stick on a grid": 0.07, "frame": 0.06}
 """Shares of the models."""

@@ -58,7 +58,7 @@ def _bearing(rng: np.random.Generator, load: float) -> LIRBearing:
 
 def _law(rng: np.random.Generator, stiffness: float, force: float) -> Bilinear | BoucWen:
     hardening = 0.0 if rng.random() < 0.2 else float(rng.uniform(0.0, 0.1))
-    given = {"stiffness": stiffness, "yield_force": force, "hardening": hardening}
+    given: dict[str, Any] = {"stiffness": stiffness, "yield_force": force, "hardening": hardening}
     kind = rng.random()
     if kind < 0.4:
         return Bilinear(**given)

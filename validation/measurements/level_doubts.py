@@ -136,7 +136,7 @@ def compared(found: list[dict[str, Any]]) -> Compared:
 
 def spreads(those: Compared) -> dict[str, tuple[int, Iterator[tuple[float, float, float]]]]:
     """Return quantile of 90 %, least and largest of the errors, as `SHOWN`, by class [%]."""
-    found = {}
+    found: dict[str, tuple[int, Iterator[tuple[float, float, float]]]] = {}
     for kind in (NOTHING, *(each.name for each in CLASSES)):
         off = 100.0 * those.off[[own == kind for own in those.kinds]]
         if len(off):
@@ -181,10 +181,10 @@ def main(given: Sequence[str] | None = None) -> None:
         LIMIT,
     )
     found.sort(key=lambda entry: int(entry["number"]))
-    each = [[e for e in found if e["unlike"] is unlike] for unlike in (False, True)]
+    alike, other = ([e for e in found if e["unlike"] is unlike] for unlike in (False, True))
     lost = [f"{n}{' of unlike friction' if unlike else ''} ({how})" for (n, unlike), how in hung]
     call = f"{parser.prog} --seed {options.seed} --count {options.count} --unlike {options.unlike}"
-    TARGET.write_text(page(*each, lost, call), encoding="utf-8")
+    TARGET.write_text(page(alike, other, lost, call), encoding="utf-8")
     print(f"written to {TARGET}")
 
 

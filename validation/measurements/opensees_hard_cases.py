@@ -323,7 +323,7 @@ def taken_back(worker: Worker) -> list[tuple[str, str]]:
 
 def summary(found: list[Entry]) -> list[tuple[str, ...]]:
     """Return rows of counts by model and setting."""
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for model, setting in dict.fromkeys((e.model, e.setting) for e in found):
         own = [e for e in found if (e.model, e.setting) == (model, setting)]
         good = [e for e in own if e.status == "ok"]

@@ -192,7 +192,7 @@ class Outcome:
 
 def compare(public: Public, duration: float = DURATION) -> Outcome:
     """Analyse a public model in both programs."""
-    units = {"length_unit": public.length, "force_unit": public.force}
+    units: dict[str, Any] = {"length_unit": public.length, "force_unit": public.force}
     motion = waves(public.shaking, duration)
     there = []
     for place, dt in enumerate(public.steps):

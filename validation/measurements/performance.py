@@ -193,11 +193,11 @@ def near_fault(scale: float) -> GroundMotion:
     t = np.arange(0.0, 10.0, 0.01)
     envelope = np.minimum(t / 2.0, 1.0) * np.minimum((10.0 - t) / 4.0, 1.0)
     rng = np.random.default_rng(1)
-    waves = [
+    x, y, z = [
         scale * a * envelope * (np.sin(2 * np.pi * t / p) + 0.15 * rng.normal(size=len(t)))
         for a, p in ((1.7, 1.6), (1.2, 2.1), (0.8, 0.25))
     ]
-    return GroundMotion(*waves, dt=0.01, name="made pulse")
+    return GroundMotion(x, y, z, dt=0.01, name="made pulse")
 
 
 def run_microseconds(model: Any, dt: float) -> tuple[float, dict[str, Any]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import statistics
 import warnings
 from dataclasses import dataclass, replace
+from functools import partial
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -118,7 +119,7 @@ def run_scene(scene: Scene) -> Result:
             "rigid_body",
             f"tolerance {tolerance:.0e}",
             tolerance,
-            timed(lambda t=tolerance: go("rigid_body", dt=OUTPUT, tolerance=t)),
+            timed(partial(go, "rigid_body", dt=OUTPUT, tolerance=tolerance)),
         )
         for tolerance in TOLERANCES
     ]
@@ -137,7 +138,7 @@ def run_scene(scene: Scene) -> Result:
     ]
     for level in ("pendulum", "contact"):
         for dt in (*STEPS, None):
-            run = timed(lambda le=level, h=dt: go(le, **options_of(h)))
+            run = timed(partial(go, level, **options_of(dt)))
             rows.append(_row(scene.name, level, dt, run, reference, scene.duration, cost, slow))
     return Result(scene.name, scene.what, scene.uplift, reference, rows, features(scene, reference))
 
@@ -197,7 +198,7 @@ def sensitivity(scene: Scene) -> list[tuple[str, Errors]]:
     ]
 
 
-def kept_of(resolved: dict[str, float]) -> dict[str, float]:
+def kept_of(resolved: dict[str, float]) -> dict[str, Any]:
     """Return the properties that must not follow a changed default."""
     names = ("axial_stiffness", "axial_damping", "rim_stiffness", "rim_damping", "design_load")
     return {name: resolved[name] for name in names}
@@ -240,7 +241,7 @@ def static_loop() -> Result:
         return response(data, seconds=perf_counter() - began)
 
     reference = go("rigid_body")
-    runs = [(level, timed(lambda le=level: go(le))) for level in ("pendulum", "contact")]
+    runs = [(level, timed(partial(go, level))) for level in ("pendulum", "contact")]
     rows = [
         _row(
             "static loop",
@@ -280,7 +281,7 @@ def run_building() -> Result | None:
             "building",
             name,
             dt,
-            timed(lambda le=level, h=dt: go(le, h)),
+            timed(partial(go, level, dt)),
             reference,
             duration,
             cost,

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -153,7 +153,7 @@ def records_in(folder: Path) -> dict[str, Callable[[], GroundMotion]]:
 
     found: dict[str, Callable[[], GroundMotion]] = {"Pacoima Dam 1971": pacoima}
     for name, file in AT2.items():
-        found[name] = lambda file=file, name=name: at2(file, name)
+        found[name] = partial(at2, file, name)
     return found | {"Chi-Chi TCU065 1999": chi_chi, "Lucerne 1992": lucerne}
 
 

@@ -144,12 +144,12 @@ def _member(
         length = float(np.linalg.norm(end - start))
         hinged_member(ops, tag, member, ends, length, frame.hinges[member.name])
     elif stiff:
-        first = (s.area, s.elastic_modulus, s.shear_modulus, s.torsion_constant)
-        ops.element("elasticBeamColumn", tag, *ends, *first, s.inertia_y, s.inertia_z, tag)
+        own = (s.area, s.elastic_modulus, s.shear_modulus, s.torsion_constant)
+        ops.element("elasticBeamColumn", tag, *ends, *own, s.inertia_y, s.inertia_z, tag)
     else:
-        first = (s.elastic_modulus, s.shear_modulus, s.area, s.torsion_constant)
+        own = (s.elastic_modulus, s.shear_modulus, s.area, s.torsion_constant)
         rest = (s.inertia_y, s.inertia_z, s.shear_area_y, s.shear_area_z)
-        ops.element("ElasticTimoshenkoBeam", tag, *ends, *first, *rest, tag)
+        ops.element("ElasticTimoshenkoBeam", tag, *ends, *own, *rest, tag)
 
 
 def _spring(ops: Any, tag: int, i: int, j: int, stiffness: Sequence[float]) -> None:
