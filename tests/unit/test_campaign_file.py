@@ -13,7 +13,7 @@ from scipy import stats
 from typer.testing import CliRunner
 
 from frames.command.app import app
-from frames.design import ProjectError
+from frames.design import MotionSet, ProjectError
 from frames.design.project.source_files import SourceFiles
 from frames.risk import Intensity, open_campaign, sobol_indices
 from frames.risk.campaign.file import campaign_file, read_campaign
@@ -100,6 +100,7 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
         ("radius = {values", "radios = {values", 'radios is not known; is "radius" meant?'),
         ('"1500 mm", "2 m"', "1.5", "has no unit"),
         ('"artificial-1"', '"artificial-99"', "artificial-99"),
+        ('devices = ["LIR-DCFP", "DCFP"]', 'devices = ["FPS"]', "none of LIR-DCFP, DCFP"),
         ("1.0, 1.5", "1.0, 0.0", "scale of a motion must not be 0"),
         ("[sample]", "[samples]", "samples is not known"),
         ('folder = "motions"', PULSES.replace("]}", '], periods = ["3 s"]}'), "write one of both"),
@@ -177,6 +178,9 @@ bearing_failure = true
     (folder / "friction.toml").write_text(text.replace("scales = [1.0, 1.5]\n", asked))
     motions = read_campaign(folder / "friction.toml").motions
     assert len(motions) == 2 * 2 * 2
+    assert isinstance(motions, MotionSet)
+    sources = [facts["made_from"] for facts in motions.facts.values()]
+    assert sources == ["artificial-1"] * 4 + ["artificial-2"] * 4
     measure = Intensity(kind="PGA")
     for name in ("artificial-1", "artificial-1, 90 degrees"):
         assert measure.of(motions[name]) == pytest.approx(1.0)

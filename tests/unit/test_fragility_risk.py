@@ -313,6 +313,11 @@ def test_paired_tests_are_the_exact_binomial() -> None:
         {"A": _runs(one, "numerical failure"), "B": runs["B"]}, [("A", "B")], [limit]
     )
     assert unknown.loc[unknown["scale"] == 1.0, "records"].item() == 8  # of failed bearings alone
+    # motions in pairs of one record: four are worse, not eight
+    for each in runs.values():
+        each.table["record"] = np.indices(one.shape)[0].ravel() // 2
+    made = paired_tests(runs, [("A", "B")], [limit]).set_index("scale").loc[1.0]
+    assert (made["records"], made["more"], made["p"]) == (6, 4, pytest.approx(2.0 * 0.5**4))
     refused(FragilityError, "structure", paired_tests, runs, [("A", "C")], [limit])
     refused(FragilityError, "rate", paired_tests, runs, [("A", "B")], [limit], 1.0)
 

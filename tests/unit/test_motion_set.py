@@ -377,7 +377,7 @@ def test_motions_turned_without_vertical_and_repeated() -> None:
     assert list(turned) == ["a", "a, 90 degrees", "b", "b, 90 degrees"]
     assert turned["a"] is one
     np.testing.assert_allclose(turned["a, 90 degrees"].y, one.x)
-    assert turned.facts["a, 90 degrees"] == {"magnitude": 7.0}
+    assert turned.facts["a, 90 degrees"] == {"made_from": "a", "magnitude": 7.0}
     refused(MotionError, "a: no vertical component", both.without_vertical)
     flat = both.only(["b"]).without_vertical(beside=True)
     assert list(flat) == ["b", "b, horizontal"]

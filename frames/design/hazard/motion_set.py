@@ -326,8 +326,8 @@ class MotionSet(MotionCollection):
         return self._varied(made)
 
     def _varied(self, made: Sequence[tuple[str, str, GroundMotion]]) -> MotionSet:
-        # Source of each motion, its name, and the motion; facts are copied.
-        facts = {name: self.facts[own] for own, name, _ in made}
+        # Source of each motion, its name, and the motion; facts are copied, with the first source.
+        facts = {name: {"made_from": own} | dict(self.facts[own]) for own, name, _ in made}
         return MotionSet({name: motion for _, name, motion in made}, facts)
 
     def scaled_to(

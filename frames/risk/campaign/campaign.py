@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from frames._errors import ModelWarning
 from frames.batch.cases import BatchProgress, grid, named_models, named_motions, tell
 from frames.batch.processes import crew_of
+from frames.design.hazard.motion_set import MotionSet
 from frames.frame import Frame
 from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
@@ -135,6 +136,7 @@ class Campaign:
         require_type("record", record, (Recording, type(None)), "a Recording, or None")
         own = checked_measures(measures)
         structures, grounds = _named(models), named_motions(motions)
+        self._facts = motions.facts if isinstance(motions, MotionSet) else {}
         if intensity is not None or intensities is not None:
             grounds, scales = _at_intensities(grounds, scales, intensity, intensities)
         one = {name: None for name in (next(iter(structures)),)}
@@ -289,9 +291,10 @@ class Campaign:
             yield number, batch
 
     @property
-    def motions(self) -> dict[str, GroundMotion]:
-        """GroundMotion by name, before the scales."""
-        return dict(self._work.motions)
+    def motions(self) -> Mapping[str, GroundMotion]:
+        """GroundMotion by name, before the scales; a MotionSet with the facts of a given one."""
+        found = dict(self._work.motions)
+        return MotionSet(found, self._facts) if self._facts else found
 
     @property
     def sets(self) -> int:

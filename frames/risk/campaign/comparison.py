@@ -66,7 +66,7 @@ class ComparedDevices:
                 found.setdefault(_named(name, kept), replace(device, rims=rims).on(frame))
         return found
 
-    def groups(self) -> dict[str, list[str]]:
+    def by_rims(self) -> dict[str, list[str]]:
         """Return the names of devices with the same rims, the LIR-DCFP first, by their rims."""
         found = {}
         for strength in self.rims or (None,):

@@ -183,12 +183,12 @@ class Device:
             for name, each in own.items()
         }
 
-    def _dishes(self, own: LIRBearing, widest: float, beyond: float) -> dict[str, Any]:
+    def _dishes(self, own: LIRBearing, widest: float, last: tuple[float, float]) -> dict[str, Any]:
         # Radii, height and capacity; plates that would touch at rest have higher sliders.
         (bottom, top), height = own.radii, own.slider_height
         length, given = own.effective_radius, 1e3 * (self.plan or self.moat or 0.0)
         while True:
-            reach = self.capacity or 0.0
+            reach, beyond = self.capacity or 0.0, last[0] + _bent((bottom, top), length, last[1])
             if self.moat is not None:
                 reach = self.moat - beyond
             elif self.plan is not None:
@@ -209,13 +209,16 @@ class Device:
                 return {**found, "capacity": reach, "rims": None}
             height, bottom, top = height + HIGHER, bottom + 0.5 * HIGHER, top + 0.5 * HIGHER
 
-    def _beyond(self, own: Mapping[str, LIRBearing], sliders: Mapping[str, float]) -> float:
-        # Displacement from the rims to the failure of the first bearing.
+    def _beyond(
+        self, own: Mapping[str, LIRBearing], sliders: Mapping[str, float]
+    ) -> tuple[float, float]:
+        # Of the first bearing to fail: slip, or deformation at which its rims break.
         if self.kind == "LIR-DCFP":
-            return min(each.slip_capacity or sliders[name] for name, each in own.items())
+            return min(each.slip_capacity or sliders[name] for name, each in own.items()), 0.0
         if self.rims == math.inf:
-            return 0.0
-        return min(self.rim_overrun or each.resolved()["rim_overrun"] for each in own.values())
+            return 0.0, 0.0
+        given = self.rim_overrun
+        return 0.0, min(given or each.resolved()["rim_overrun"] for each in own.values())
 
     def _bearing(self, own: LIRBearing, sized: Mapping[str, Any]) -> LIRBearing:
         # The rims are those of the bearing for all sliders, except for given values.
@@ -250,18 +253,24 @@ def _dish(own: LIRBearing, slider: float) -> dict[str, Any]:
     return {"capacity": None, "rims": (bottom + more, top + more)}
 
 
+def _bent(radii: tuple[float, float], length: float, overrun: float) -> float:
+    # Displacement beyond the first rim contact at which the rims of both plates are bent so far.
+    return 2.0 * overrun * length / sum(radii)
+
+
 def moat_of(bearings: Iterable[LIRBearing]) -> float:
     """Return the displacement at which the first bearing of a building fails [m].
 
-    The rim displacement plus the slip capacity of the sliders, or plus the deformation at which a
-    rim breaks; the rim displacement if there is no such limit, as for unbreakable rims.
+    The rim displacement plus the slip capacity of the sliders, or plus the way on which the rims
+    of both plates bend until they break; the rim displacement if there is no such limit, as for
+    unbreakable rims. Rims that break one after the other end the way earlier.
     """
     found = []
     for each in bearings:
         options = each.resolved()
-        broken = options["rim_overrun"] if options["rim_overrun"] < max(each.radii) else 0.0
-        beyond = broken if each.is_dcfp else options["slip_capacity"]
-        found.append(each.lateral_capacity + beyond)
+        overrun, reach = options["rim_overrun"], each.lateral_capacity
+        broken = _bent(each.radii, each.effective_radius, overrun) * (overrun < max(each.radii))
+        found.append(reach + (broken if each.is_dcfp else options["slip_capacity"]))
     return min(found)
 
 

@@ -219,9 +219,10 @@ def loss_in(given: CampaignFile | str | Path) -> LossInput | None:
 
 
 def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
-    """Return the comparison of a campaign's file; None without ``[compare]``."""
+    """Return the comparison of a campaign's file; None without ``[compare]`` or two devices."""
     file = _read(given)
-    if file.compare is None:
+    own = {} if file.compare is None else file.groups() if file.devices else file.compare.by_rims()
+    if file.compare is None or not own:
         return None
     bearing, asked = bearing_of(file.bearing), file.compare
     measure = file.measured()
@@ -229,11 +230,6 @@ def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
     considered = asked.maximum_considered
     if filling and measure is not None and measure.period is not None:
         considered = filling_intensity(bearing, measure.period)
-    own = asked.groups()
-    if file.devices:
-        firsts = asked.own or tuple(file.devices)[:1]
-        rims = "the rims of each"
-        own = {n if asked.own else rims: [n, *file.compared()] for n in firsts}
     pairs = [(each, rims) for each in file.structures or ("",) for rims in own]
     return DeviceComparison(
         frames=models_in(file),
@@ -333,7 +329,7 @@ def _devices(frame: Frame, file: CampaignFile) -> dict[str, Frame]:
         def made(table: DeviceTable) -> Frame:
             return table.made().on(frame)  # type: ignore[no-any-return]
 
-        tables = file.devices.items()
+        tables = file.run_devices().items()
         return {n: in_section(f"devices.{n}", partial(made, each)) for n, each in tables}
     if file.compare is not None:
         return file.compare.frames(frame)

@@ -17,7 +17,9 @@ from frames.design.project.schema_structure import Structure
 from frames.design.project.structure_loads import LoadsTable
 from frames.risk.campaign.comparison import (
     LARGER,
+    LIR,
     OTHERS,
+    PLAIN,
     SAME_PLAN,
     ComparedDevices,
     collapse_limit,
@@ -137,6 +139,9 @@ _Strength = Annotated[Ratio, Field(gt=0.0)] | Literal["unbreakable"]
 MOST_COMPARED = 5
 """Largest number of devices besides the first in one figure."""
 
+RIMS_OF_EACH = "the rims of each"
+"""Name of the group of all devices."""
+
 GEOMETRY = "radius", "slider_height", "slider_radius", "capacity"
 """Parameters that ``[parameters]`` does not vary if the file has devices, which set them."""
 
@@ -182,10 +187,10 @@ class SearchTable(Table):
 
 
 class CampaignTable(Table):
-    """``[campaign]``: name, comparison with plain bearings, Python files with friction laws."""
+    """``[campaign]``: name, devices that are run, Python files with friction laws."""
 
     name: str = Field(min_length=1)
-    devices: tuple[Literal["LIR-DCFP", "DCFP"], ...] = Field(default=("LIR-DCFP",), min_length=1)
+    devices: tuple[str, ...] = Field(default=(LIR,), min_length=1)
     extensions: tuple[str, ...] = ()
     batch: int | None = Field(default=None, ge=1)
 
@@ -267,7 +272,7 @@ class CompareTable(ComparedDevices, Table):
     """``[compare]``: devices beside the LIR-DCFP, strengths of their rims, collapse."""
 
     devices: tuple[str, ...] = Field(default=("DCFP", "larger DCFP"), min_length=1)
-    own: tuple[str, ...] = ()
+    groups: dict[str, Annotated[tuple[str, ...], Field(min_length=2)]] = Field(default_factory=dict)
     rims: tuple[_Strength, ...] = ()
     slider_radius: _Length | None = None
     larger: _Length | None = None
@@ -372,8 +377,8 @@ class CampaignFile(WholeFile):
         section = "[devices]" if self.devices else "[compare]" if self.compare else ""
         if not section:
             return self
-        if "devices" in self.campaign.model_fields_set:
-            msg = f"campaign.devices: {section} has the devices, leave it out"
+        if "devices" in self.campaign.model_fields_set and not self.devices:
+            msg = "campaign.devices: [compare] has the devices, leave it out"
             raise ValueError(msg)
         for name in (*GEOMETRY, *(f"{each}{FACTOR}" for each in GEOMETRY)):
             if getattr(self.parameters, name, None) is not None:
@@ -401,22 +406,26 @@ class CampaignFile(WholeFile):
 
     @model_validator(mode="after")
     def _compared_devices_are_there(self) -> Self:
-        if self.compare is None:
-            return self
-        own = self.compare.own
-        known = list(self.devices)[0 if own else 1 :] if self.devices else list(OTHERS)
-        strange = [name for name in own if name not in self.devices]
-        if strange:
-            msg = f'compare.own: "{strange[0]}" is no device: name some of [devices]'
-            raise ValueError(msg)
-        given = self.compare.model_fields_set
-        wrong = [name for name in self.compare.devices if name not in known]
-        if wrong and (not self.devices or "devices" in given):
-            msg = f'compare.devices: "{wrong[0]}" is none of {", ".join(known)}'
-            raise ValueError(msg)
-        if self.devices and len(self.compared()) > MOST_COMPARED:
-            msg = f"compare.devices has {len(self.compared())}: name at most {MOST_COMPARED}"
-            raise ValueError(msg)
+        compare, known = self.compare or CompareTable(), list(self.devices) or [LIR, PLAIN]
+        given = compare.model_fields_set
+        named = {f"compare.groups.{name}": (each, known) for name, each in compare.groups.items()}
+        if "devices" in self.campaign.model_fields_set:
+            named["campaign.devices"] = self.campaign.devices, known
+        if "devices" in given or (self.compare is not None and not self.devices):
+            others = known[1:] if self.devices else list(OTHERS)
+            named["compare.devices"] = compare.devices, others
+        for key, (names, allowed) in named.items():
+            for name in names:
+                if name not in allowed:
+                    msg = f'{key}: "{name}" is none of {", ".join(allowed)}'
+                    raise ValueError(msg)
+        if compare.groups and (not self.devices or "devices" in given):
+            msg = "compare.groups replace compare.devices: leave one out"
+            raise ValueError(msg if self.devices else "compare.groups are of [devices]: add these")
+        for name, each in self.groups().items() if self.devices and self.compare else ():
+            if len(each) - 1 > MOST_COMPARED:
+                msg = f"[compare] has {len(each) - 1} devices beside {each[0]} ({name}): name at "
+                raise ValueError(msg + f"most {MOST_COMPARED}")
         for key in {"rims", "slider_radius", "larger"} & given if self.devices else ():
             msg = f"compare.{key}: [devices] says it of each device, leave it out"
             raise ValueError(msg)
@@ -427,12 +436,21 @@ class CampaignFile(WholeFile):
     def _bearings_of_structures(cls, given: object) -> object:
         return completed(given) if isinstance(given, dict) else given
 
-    def compared(self) -> tuple[str, ...]:
-        """Return the names of ``[devices]`` that its first one is compared with."""
-        if self.compare is not None and "devices" in self.compare.model_fields_set:
-            return self.compare.devices
-        own = tuple(self.devices)[:1] if self.compare is None else self.compare.own
-        return tuple(name for name in self.devices if name not in (own or (*self.devices,)[:1]))
+    def run_devices(self) -> dict[str, DeviceTable]:
+        """Return the tables of the devices that are run, all or those of ``[campaign]``."""
+        named = self.campaign.devices if "devices" in self.campaign.model_fields_set else ()
+        return {name: each for name, each in self.devices.items() if name in (named or (name,))}
+
+    def groups(self) -> dict[str, list[str]]:
+        """Return the devices that are run by group; the first is compared with the others."""
+        run, compare = list(self.run_devices()), self.compare or CompareTable()
+        others = compare.devices if "devices" in compare.model_fields_set else run[1:]
+        found = {}
+        for name, (first, *rest) in (compare.groups or {RIMS_OF_EACH: (run[0], *others)}).items():
+            kept = [each for each in rest if each in run]
+            if first in run and kept:
+                found[name] = [first, *kept]
+        return found
 
     @model_validator(mode="after")
     def _both_or_none(self) -> Self:

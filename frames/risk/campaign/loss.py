@@ -232,7 +232,7 @@ def expected_loss(
         msg = "hazard is empty: give at least one HazardCurve"
         raise FragilityError(msg)
     tail = 0.5 * (1.0 - checked_confidence(confidence))
-    records = sorted({name for each in runs.values() for name in each.motions})
+    records = sorted({name for each in runs.values() for name in each.records})
     drawn = np.random.default_rng(seed).integers(0, len(records), (resamples, len(records)))
     at, unit = _intensities(runs, hazards), next(iter(hazards.values())).unit
     rows, resampled = [], {}
@@ -346,9 +346,9 @@ def _parts(
 def _by_record(
     values: FloatArray, runs: IntensityRuns, records: list[str], at: FloatArray
 ) -> FloatArray:
-    # A table (records, intensities); the mean if there are several sets of parameters.
-    table = runs.table[["motion", "im"]].assign(value=values)
-    wide = table.pivot_table(index="motion", columns="im", values="value", dropna=False)
+    # A table (records, intensities); the mean of sets of parameters and motions of one record.
+    table = pd.DataFrame({"record": runs.records, "im": runs.of("im"), "value": values})
+    wide = table.pivot_table(index="record", columns="im", values="value", dropna=False)
     return np.asarray(wide.reindex(index=records, columns=at).to_numpy())
 
 

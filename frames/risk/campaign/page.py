@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from frames.risk.fragility.plot_fragility import draw_curve, fragility_curves, s
 from lir_element._version import package_version
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     from matplotlib.figure import Figure
@@ -36,19 +37,8 @@ def compared(
     comparison: DeviceComparison, tables: CampaignTables, *, figures: bool
 ) -> dict[str, Any]:
     """Return the comparison of devices of a campaign, by the names on the page."""
-    pictures = []
-    for rims, devices in comparison.groups.items() if figures else ():
-        drawn = device_curves(
-            {device: tables.runs[device] for device in devices},
-            tables.curves,
-            tables.limits,
-            confidence=CONFIDENCE,
-            considered=comparison.considered,
-        )
-        pictures.append(picture(f"Fragility, {rims}", drawn))
-        by_factor = {device: tables.by_factor[device] for device in devices}
-        title = f"Responses and runs that failed, {rims}"
-        pictures.append(picture(title, response_by_factor(by_factor, axis=tables.axis)))
+    drawn = comparison_figures(tables).items() if figures else ()
+    pictures = [picture(f"{TITLES[kind]}, {group}", draw()) for (kind, group), draw in drawn]
     return {
         "sizes": page_table(in_mm_and_kn(tables.devices), "device"),
         "ratios": _ratio_table(tables.ratios),
@@ -57,6 +47,28 @@ def compared(
         "considered": _considered(comparison, tables),
         "pictures": pictures,
     }
+
+
+TITLES = {"fragility": "Fragility", "response": "Responses and runs that failed"}
+
+
+def comparison_figures(tables: CampaignTables) -> dict[tuple[str, str], Callable[[], Figure]]:
+    """Return functions that draw compared devices, by kind of `TITLES` and group."""
+    comparison = tables.comparison
+    groups = {"": list(tables.runs)} if comparison is None else comparison.groups
+    found: dict[tuple[str, str], Callable[[], Figure]] = {}
+    for group, devices in groups.items():
+        found["fragility", group] = partial(
+            device_curves,
+            {device: tables.runs[device] for device in devices},
+            tables.curves,
+            tables.limits,
+            confidence=CONFIDENCE,
+            considered=None if comparison is None else comparison.considered,
+        )
+        by_factor = {device: tables.by_factor[device] for device in devices}
+        found["response", group] = partial(response_by_factor, by_factor, axis=tables.axis)
+    return found
 
 
 def _fragility_table(fragility: pd.DataFrame) -> Table:

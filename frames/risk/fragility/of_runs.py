@@ -87,7 +87,7 @@ def fragility_of(
         at, censored = found["capacity"].to_numpy(), found["censored"].to_numpy()
         return fit_capacities(at, list(found.index), censored=censored, **common)
     _require_beforehand(plans, chosen)
-    im, records = each.of("im"), list(map(str, each.of("motion")))
+    im, records = each.of("im"), each.records
     if chosen == "stripes":
         return fit_stripes(im, each.exceeded(limit), records, **common)
     if limit.quantity is None or limit.limit is None:

@@ -33,7 +33,8 @@ def paired_tests(
 
     A record differs at a scale if one structure alone exceeds the limit state (McNemar's exact
     test), or if its demand is larger. The row of scale infinity counts each record once, by the
-    structure that has more of its scales. So do several sets of parameters at one scale.
+    structure that has more of its scales. So do several sets of parameters at one scale, and
+    motions made of one record: turned, repeated, without their vertical component.
 
     Parameters
     ----------
@@ -87,9 +88,10 @@ def paired_tests(
 
 
 def _scores(runs: IntensityRuns, measure: LimitState | str) -> pd.Series[float]:
-    # Exceedance or demand by motion, scale, and number of the set of parameters.
+    # Exceedance or demand by record, motion, scale, and number of the set of parameters.
     score = runs.exceeded(measure) if isinstance(measure, LimitState) else runs.demand(measure)
-    keys = pd.DataFrame({"motion": runs.of("motion"), "scale": runs.of("scale")})
+    keys = pd.DataFrame({"record": runs.records, "motion": runs.of("motion")})
+    keys["scale"] = runs.of("scale")
     keys["set"] = keys.groupby(["motion", "scale"]).cumcount()
     return pd.Series(score, pd.MultiIndex.from_frame(keys))
 
@@ -105,7 +107,7 @@ def _counted(own: pd.Series[float], other: pd.Series[float]) -> Iterator[dict[st
 
 def _row(scale: float, signs: pd.Series[int]) -> dict[str, float]:
     # A record counts once.
-    found = signs.groupby(level="motion").sum()
+    found = signs.groupby(level="record").sum()
     more, less = int((found > 0).sum()), int((found < 0).sum())
     p = binomtest(more, more + less).pvalue if more + less else 1.0
     return {"scale": scale, "records": len(found), "more": more, "less": less, "p": float(p)}

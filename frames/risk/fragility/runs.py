@@ -189,9 +189,11 @@ class IntensityRuns(Rows, Shown):
         }
         status = [str(s) for s in own["status"].to_numpy()]
         quantities = [str(q) for q in own["quantity"].to_numpy()]
+        facts = getattr(motions, "facts", {})
         table = pd.DataFrame(
             {
                 "motion": used,
+                "record": [str(facts.get(name, {}).get("made_from", name)) for name in used],
                 "scale": scale,
                 "im": [float(f"{im[run]:.10g}") for run in runs],  # one of all runs of a stripe
                 "outcome": [outcome_of(s) for s in status],
@@ -208,6 +210,11 @@ class IntensityRuns(Rows, Shown):
     def motions(self) -> tuple[str, ...]:
         """Names of the motions, in the order of their first runs."""
         return tuple(dict.fromkeys(self.table["motion"]))
+
+    @property
+    def records(self) -> list[str]:
+        """Name of the record of each run: motions that are made of one record count as one."""
+        return [str(name) for name in self.table.get("record", self.table["motion"])]
 
     @property
     def failed(self) -> pd.DataFrame:
