@@ -8,9 +8,10 @@ import pytest
 
 from frames.risk.campaign.file import campaign_file, models_in, read_campaign
 from frames.risk.fragility.runs import COMPLETE, FAILURE
-from validation.study import device, motions, near_fault
+from validation.study import motions, near_fault
 from validation.study.near_fault import LOOKS, PAIRS, PLAN
 from validation.study.runner import tried
+from validation.study.shown import sizes_of
 
 HERE = Path(near_fault.__file__).parent
 
@@ -18,7 +19,7 @@ HERE = Path(near_fault.__file__).parent
 def test_devices_of_the_map_are_alike_but_for_what_is_limited():
     """Equal plan, or equal moat, within 2 mm; the LIR-DCFP is within the package's checks."""
     frames = models_in(HERE / "near_fault.toml")
-    sizes = {name: device.sizes_of(frame) for name, frame in frames.items()}
+    sizes = {name: sizes_of(frame) for name, frame in frames.items()}
     for pair, names in PAIRS.items():
         key, *size = pair.split()
         if size:
@@ -123,7 +124,7 @@ def test_the_angle_decides_where_outcomes_differ():
     """Record a collapses turned by 30 degrees alone, b at all angles, c is unknown at one."""
     names = [f"{name}{turn}" for name in "abc" for turn in ("", ", 30 degrees", ", 60 degrees")]
     over = [0.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0, np.nan, 0.0]
-    own = pd.DataFrame({"motion": names, "scale": 2.0, "over": over})
+    own = pd.DataFrame({"motion": names, "record": [*"aaabbbccc"], "over": over})
     found = motions.turned({"LIR-DCFP": own, "DCFP": own.assign(over=0.0)})
     assert found["decides"] == {"LIR-DCFP": [1, 2], "DCFP": [0, 3]}
     assert found["angles"]["30"] == {"LIR-DCFP": [2, 2], "DCFP": [0, 3], "apart": [2, 0, 0.5]}

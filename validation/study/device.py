@@ -9,15 +9,15 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from frames.plots import plot_style as ps
-from frames.risk import Device, LimitState, compare_fragility, paired_tests
-from frames.risk.campaign.comparison import COLLAPSE, dish_diameter
-from frames.risk.campaign.devices import highest_ratio, moat_of
-from frames.risk.campaign.tables import CONFIDENCE
+from frames.risk import Device
+from frames.risk.campaign.comparison import dish_diameter
 from validation.study import levels
+from validation.study.shown import sizes_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
+    import pandas as pd
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -28,18 +28,18 @@ if TYPE_CHECKING:
     Own = Mapping[str, Any]
 
 LEVELS = ("contact", "pendulum")
-PLANS = ("569 mm", "689 mm", "1009 mm")
-REFERENCE = "689 mm"
+REFERENCE, SMALL, LARGE = "689 mm", "569 mm", "1009 mm"
 RIMS = ("rims of 1 W", "unbreakable rims", "rims of 0.5 W")
 LIR = f"LIR-DCFP {REFERENCE}"
-TERMS = {"plan": PLANS, "moat": ("of moat 517 mm",), "cost": ("of cost as 689 mm",)}
-"""What is equal, and how the file calls the DCFPs."""
-
-LIMITS = ("storey drift 2 %", "ductility 4", "floor acceleration 1 g", COLLAPSE)
-"""Limit states of the tables."""
-
-PARTS = ("plates", "rims", "sliders", "liners", "overlays", "each")
-"""Of a bearing's cost."""
+TERMS = {
+    "plan": "The DCFP has sliders as small as the pressure allows, so that all of the plan is "
+    "displacement. Plates of the LIR-DCFP are as large under all columns. In the plates of the DCFP "
+    "under every column its sliders are by load, 60 mm wider: its margin is in the last table.",
+    "moat": "The DCFP fails at the displacement at which the LIR-DCFP of 689 mm fails, and has a larger "
+    "plan.",
+    "cost": "The DCFP costs as much as the LIR-DCFP of 689 mm.",
+}
+"""What is equal in groups of the file, with a remark."""
 
 DENSITY = 7850.0
 """Of steel [kg/m3]."""
@@ -66,14 +66,7 @@ class Prices(NamedTuple):
     thickness: float = 0.03  # of a plate under the lowest point of its dish [m]
 
 
-PRICES = Prices()
-
-
-def pairs_of(terms: str) -> list[tuple[str, str]]:
-    """Return the devices that are compared on terms: the LIR-DCFP, and a DCFP."""
-    labels = TERMS[terms]
-    own = {label: f"LIR-DCFP {label}" if terms == "plan" else LIR for label in labels}
-    return [(own[label], f"DCFP {label}, {rims}") for label in labels for rims in RIMS]
+PRICES, PARTS = Prices(), Prices._fields[:-1]
 
 
 def rim_width(bearing: LIRBearing) -> float:
@@ -120,78 +113,17 @@ def bearings_of(frame: Frame) -> list[LIRBearing]:
 
 
 def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
-    """Return what the page says beside the tables of the campaigns, plain numbers."""
-    comparison = every[LEVELS[0]].comparison
-    assert comparison is not None
-    frames = comparison.frames
-    found: dict[str, Any] = {"devices": {name: sizes_of(frame) for name, frame in frames.items()}}
-    for level in LEVELS:
-        tables = every[level]
-        found[level] = {
-            "shares": {name: _shares(tables, name) for name in tables.runs},
-            "pairs": {terms: _pairs(tables, terms) for terms in TERMS},
-        }
-    margins = every[LEVELS[0]].margins.reindex(columns=["margin [-]"])["margin [-]"].to_dict()
-    found["turns"] = {rims: turning_prices(margins, frames, rims) for rims in RIMS}
-    found["levels"] = levels.numbers(every)
-    return found
-
-
-def sizes_of(frame: Frame) -> dict[str, Any]:
-    """Return lengths [m], interface friction, ratio of the checks [-] and cost of a device."""
-    bearings = bearings_of(frame)
+    """Return sizes, costs, prices that turn the answer, and why levels differ, plain numbers."""
+    tables = every[LEVELS[0]]
+    margins = tables.margins.reindex(columns=["margin [-]"])["margin [-]"].to_dict()
     return {
-        "plan": max(map(dish_diameter, bearings)),
-        "least plan": min(map(dish_diameter, bearings)),
-        "capacity": min(each.lateral_capacity for each in bearings),
-        "moat": moat_of(bearings),
-        "slider": min(each.slider_radius for each in bearings),
-        "interface": None if bearings[0].is_dcfp else bearings[0].interface_friction,
-        "ratio": None if bearings[0].is_dcfp else highest_ratio(frame),
-        "cost": cost_of(bearings),
+        "devices": {
+            name: sizes_of(frame) | {"cost": cost_of(bearings_of(frame))}
+            for name, frame in tables.frames.items()
+        },
+        "turns": {rims: turning_prices(margins, tables.frames, rims) for rims in RIMS},
+        "levels": levels.numbers(every),
     }
-
-
-def _shares(tables: CampaignTables, name: str) -> list[list[float]]:
-    # By intensity: runs that collapse, with a failed bearing, and known ones.
-    runs = tables.runs[name]
-    collapse = next(each for each in tables.limits if each.name == COLLAPSE)
-    over, failed = runs.exceeded(collapse), runs.exceeded(LimitState.bearing_failure())
-    im = runs.table["scale"].to_numpy()
-    rows = []
-    for at in np.unique(im):
-        counts = (float(np.nansum(each[im == at])) for each in (over, failed))
-        rows.append([float(at), *counts, float(np.isfinite(over[im == at]).sum())])
-    return rows
-
-
-def _pairs(tables: CampaignTables, terms: str) -> list[dict[str, Any]]:
-    # Of each limit state: ratio of medians with its interval, and the exact test of the records.
-    pairs = [pair for pair in pairs_of(terms) if {*pair} <= {*tables.runs}]
-    if not pairs:
-        return []
-    tests = paired_tests(tables.runs, pairs, tables.limits).set_index(["measure", "own", "over"])
-    rows = []
-    for limit in tables.limits:
-        for own, other in pairs:
-            tested = tests.loc[[(limit.name, own, other)]]
-            whole = tested[np.isinf(tested["scale"])].iloc[0]
-            stripes = tested[np.isfinite(tested["scale"])]
-            row: dict[str, Any] = {"limit": limit.name, "own": own, "other": other}
-            row["ratio"] = _ratio(tables.curves.get(limit.name, {}), own, other)
-            row |= {key: int(whole[key]) for key in ("less", "more", "records")}
-            row |= {"p": float(whole["p"]), "verdict": str(whole["verdict"])}
-            row["stripes"] = stripes[["scale", "less", "more", "verdict"]].to_numpy().tolist()
-            rows.append(row)
-    return rows
-
-
-def _ratio(curves: Mapping[str, Any], own: str, other: str) -> list[float] | None:
-    if own not in curves or other not in curves:
-        return None
-    table = compare_fragility(curves[other], curves[own]).to_dataframe(CONFIDENCE)
-    row = table.loc["median, ratio [-]"]
-    return [float(row[key]) for key in ("value", "low", "high")]
 
 
 def turning_prices(
@@ -199,70 +131,50 @@ def turning_prices(
 ) -> dict[str, Any]:
     """Return the plan of a DCFP of the margin of the LIR-DCFP, and the prices of equal cost.
 
-    The plan is interpolated between those that were run. Cost is linear in each price, so that one
-    factor on it makes both devices cost the same; None where no factor above zero does.
+    The plan is interpolated between those that were run; None beyond them. Cost is linear in each
+    price, so that one factor on it makes both devices cost the same.
     """
-    dcfps = {
-        max(map(dish_diameter, bearings_of(frame))): margins[name]
+    found = [
+        (max(map(dish_diameter, bearings_of(frame))), margins.get(name, math.nan))
         for name, frame in frames.items()
-        if name.startswith("DCFP")
-        and name.endswith(rims)
-        and math.isfinite(margins.get(name, math.nan))
-    }
-    plans, known = np.array(sorted(dcfps)), [dcfps[plan] for plan in sorted(dcfps)]
+        if name.startswith("DCFP") and name.endswith(rims)
+    ]
+    plans, known = (
+        np.array(sorted(each for each in found if math.isfinite(each[1]))).reshape(-1, 2).T
+    )
     wanted = margins.get(LIR, math.nan)
-    if not len(plans) or not math.isfinite(wanted) or not min(known) <= wanted <= max(known):
-        return {"plan": None, "margin": None if not math.isfinite(wanted) else wanted}
+    if not len(plans) or not known.min() <= wanted <= known.max():
+        return {"plan": None, "smaller": bool(len(plans) and wanted < known.min())}
     rising = np.maximum.accumulate(known)  # of margins that scatter the first plan that has it
     plan = float(np.interp(wanted, rising + 1e-9 * np.arange(len(rising)), plans))
-    like = frames[f"DCFP {REFERENCE}, {rims}"]
-    strength = {"rims of 1 W": 1.0, "rims of 0.5 W": 0.5}.get(rims, math.inf)
-    other = cost_of(bearings_of(Device(kind="DCFP", plan=plan, rims=strength).on(like)))
+    strength = {RIMS[0]: 1.0, RIMS[2]: 0.5}.get(rims, math.inf)
+    device = Device(kind="DCFP", plan=plan, rims=strength)
     own = cost_of(bearings_of(frames[LIR]))
+    other = cost_of(bearings_of(device.on(frames[f"DCFP {REFERENCE}, {rims}"])))
     more = sum(own.values()) - sum(other.values())
     factors = {
-        part: factor
+        part: 1.0 - more / (own[part] - other[part])
         for part in own
         if abs(own[part] - other[part]) > 1e-9
-        and (factor := 1.0 - more / (own[part] - other[part])) > 0.0
     }
-    return {"plan": plan, "margin": wanted, "cost": [sum(own.values()), sum(other.values())]} | {
-        "factors": factors
-    }
-
-
-def of_pair(own: Own, level: str, terms: str, other: str, limit: str = COLLAPSE) -> dict[str, Any]:
-    """Return what is kept of a DCFP beside its LIR-DCFP."""
-    rows = own[level]["pairs"][terms]
-    found: dict[str, Any] = next(r for r in rows if (r["other"], r["limit"]) == (other, limit))
-    return found
-
-
-def ratio_of(pair: Mapping[str, Any], none: str = "-") -> str:
-    """Return ratio of medians with its interval, as text."""
-    return "{:.2f} ({:.2f} to {:.2f})".format(*pair["ratio"]) if pair["ratio"] else none
-
-
-def said(pair: Mapping[str, Any]) -> str:
-    """Return ratio of medians, discordant records and verdict, as text."""
-    text = ratio_of(pair, "no ratio")
-    return f"{text}; {pair['less']} to {pair['more']} records, {pair['verdict']}"
+    costs = [sum(own.values()), sum(other.values())]
+    return {"plan": plan, "cost": costs, "factors": {p: f for p, f in factors.items() if f > 0.0}}
 
 
 MARKERS = "osd^v"
+MARGIN = ["margin [-]", "margin, low [-]", "margin, high [-]"]
 
 
 def figures(campaigns: Mapping[str, Any], own: Own) -> dict[str, Figure]:
-    """Return the figures by name: each of the terms, levels and cost."""
+    """Return the figures by name: margins over sizes, and levels."""
     margins = {level: campaigns[level]["tables"]["margins"].set_index("device") for level in LEVELS}
-    considered = campaigns[LEVELS[0]]["considered"]
-    found = {terms: terms_figure(own, terms, considered) for terms in TERMS}
-    cells = [(margins[level], "plan", PLANS, f"level {level}") for level in LEVELS]
-    found["margins"] = margins_figure(own, cells)
-    sizes = [(margins[LEVELS[0]], key, (), "") for key in ("cost", "moat")]
-    found["price"] = margins_figure(own, sizes)
-    found["levels"] = levels.figure(own["levels"])
-    return found
+    cells = [(margins[level], "plan", f"level {level}") for level in LEVELS]
+    sizes = [(margins[LEVELS[0]], key, "") for key in ("cost", "moat")]
+    return {
+        "margins": margins_figure(own, cells),
+        "price": margins_figure(own, sizes),
+        "levels": levels.figure(own["levels"]),
+    }
 
 
 def legend(figure: Figure) -> None:
@@ -275,72 +187,31 @@ def legend(figure: Figure) -> None:
     ps.add_legend(figure, handles, columns=2)
 
 
-def terms_figure(own: Own, terms: str, considered: float) -> Figure:
-    """Return shares of collapse over intensity, a panel a pair of devices on equal terms."""
-    labels = TERMS[terms]
-    figure = ps.new_figure(2.9)
-    (panels,) = ps.grid_of(figure, 1, len(labels), share_y=True)
-    for panel, label in zip(panels, labels, strict=True):
-        first = f"LIR-DCFP {label}" if terms == "plan" else LIR
-        for k, name in enumerate((first, *(f"DCFP {label}, {rims}" for rims in RIMS))):
-            at, collapsed, failed, known = np.array(own[LEVELS[0]]["shares"][name]).T
-            panel.plot(
-                at, 100.0 * collapsed / known, marker=MARKERS[k], markersize=3.5, **ps.line_of(k)
-            )
-            frame = collapsed > failed
-            look = {"color": ps.line_of(k)["color"], "markerfacecolor": "white", "markersize": 3.5}
-            panel.plot(at[frame], (100.0 * failed / known)[frame], MARKERS[k], **look)
-        panel.axvline(considered, color=ps.GREY, linewidth=0.7, linestyle=":")
-        panel.set_ylim(-2.0, 103.0)
-        title = f"plan {label}" if terms == "plan" else f"DCFP {label}"
-        ps.caption(panel, title=title, x="Sa(3 s) [m/s2]", y="share of collapse [%]")
-    legend(figure)
-    return figure
-
-
-def _margin_line(
-    panel: Axes, margins: Any, names: Sequence[str], at: Sequence[float], k: int
-) -> None:
-    known = [(x, margins.loc[n]) for x, n in zip(at, names, strict=True) if n in margins.index]
-    known = [(x, row) for x, row in known if math.isfinite(row.get("margin [-]", math.nan))]
-    if not known:  # of few records there may be no curve
-        return
-    x = [place for place, _ in known]
-    value, low, high = (
-        np.array([row[f"margin{end} [-]"] for _, row in known]) for end in ("", ", low", ", high")
-    )
-    ends = [value - low, high - value]
-    look = ps.line_of(k)
-    panel.errorbar(x, value, yerr=ends, marker=MARKERS[k], markersize=3.5, elinewidth=0.6, **look)
-
-
 AXES = {"plan": "plan [mm]", "moat": "moat [mm]", "cost": "cost of nine bearings [t of steel]"}
 """What margins are drawn over, by the name of a size."""
 
 
-def margins_over(panel: Axes, own: Own, margins: Any, key: str, labels: Sequence[str] = ()) -> None:
-    """Draw collapse margins of devices (DCFPs of `labels`; none: all) over a size of `AXES`."""
+def margins_over(panel: Axes, own: Own, margins: pd.DataFrame, key: str) -> None:
+    """Draw collapse margins of devices over a size of `AXES`."""
     for k, end in enumerate(("", *(f", {rims}" for rims in RIMS))):
-        start, kept = ("DCFP ", labels) if end else ("LIR-DCFP ", PLANS)
-        names = [n for n in own["devices"] if n.startswith(start) and n.endswith(end)]
-        names = [n for n in names if not kept or n[len(start) : len(n) - len(end)] in kept]
-        sizes = {n: own["devices"][n][key] for n in names}
-        at = {
-            n: 1e-3 * sum(v.values()) if key == "cost" else 1e3 * v + 4.0 * (k - 1.5)
-            for n, v in sizes.items()
-        }
-        names.sort(key=lambda name, at=at: at[name])  # type: ignore[misc]
-        _margin_line(panel, margins, names, [at[name] for name in names], k)
+        start, at = "DCFP " if end else "LIR-DCFP ", {}
+        for name, one in own["devices"].items():
+            if name.startswith(start) and name.endswith(end) and ("," in name) is bool(end):
+                size = 1e-3 * sum(one["cost"].values()) if key == "cost" else 1e3 * one[key]
+                at[name] = size + 4.0 * (k - 1.5) * (key != "cost")
+        rows = margins.reindex(list(at), columns=MARGIN).assign(at=at.values())
+        value, low, high, x = rows.dropna().sort_values("at").to_numpy().T
+        look = ps.line_of(k) | {"marker": MARKERS[k], "markersize": 3.5, "elinewidth": 0.6}
+        panel.errorbar(x, value, yerr=[value - low, high - value], **look)
     ps.caption(panel, x=AXES[key], y="collapse margin [-]")
 
 
-def margins_figure(own: Own, cells: Sequence[tuple[Any, str, Sequence[str], str]]) -> Figure:
-    """Return collapse margins, a panel of each: margins, size of `AXES`, labels, title."""
+def margins_figure(own: Own, cells: Sequence[tuple[Any, str, str]]) -> Figure:
+    """Return collapse margins, a panel of each: margins, size of `AXES`, title."""
     figure = ps.new_figure(3.2)
     (panels,) = ps.grid_of(figure, 1, len(cells), share_y=True)
-    for panel, (margins, key, labels, title) in zip(panels, cells, strict=True):
-        margins_over(panel, own, margins, key, labels)
-        if title:
-            ps.caption(panel, title=title)
+    for panel, (margins, key, title) in zip(panels, cells, strict=True):
+        margins_over(panel, own, margins, key)
+        ps.caption(panel, title=title)
     legend(figure)
     return figure

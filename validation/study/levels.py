@@ -13,7 +13,7 @@ from frames.plots import plot_style as ps
 from frames.risk.campaign.designs import with_parameters
 from frames.risk.campaign.file import read_campaign
 from frames.risk.fragility.runs import FAILURE, outcome_of
-from validation.study.part import quietly
+from validation.study.runner import quietly
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -27,16 +27,11 @@ if TYPE_CHECKING:
 HOLD = 1e3
 """Force that holds the halves [N]."""
 
-RECORD, SCALE, DEVICE, BEARING = (
-    "Kocaeli, Turkey 1999, Duzce",
-    2.6,
-    "LIR-DCFP 689 mm",
-    "bearing-2-2",
-)
-"""Of the histories: the record, its Sa [m/s2], the device, a corner."""
+RECORD, SCALE, DEVICE = "Kocaeli, Turkey 1999, Duzce", 2.6, "LIR-DCFP 689 mm"
+"""Of the histories: the record, its Sa [m/s2], the device."""
 
-STEP, SPAN = 0.005, (7.0, 10.0)
-"""Step, and times that are kept [s]."""
+BEARING, STEP, SPAN = "bearing-2-2", 0.005, (7.0, 10.0)
+"""A corner, the step, and times that are kept [s]."""
 
 KINDS = {
     "contact": ("contact", 0.0),
@@ -53,27 +48,33 @@ FACTORS = ("rim_damping_factor", "axial_damping_factor")
 def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
     """Return by device the runs that fail at one level alone and by each doubt, and histories."""
     failed = {name: _failed(tables.data) for name, tables in every.items()}
-    frame = every["contact"].frames[DEVICE]
+    frame, data = every["contact"].frames[DEVICE], every["contact"].data
+    spins = _by_run(data, data["peak_spin"].max("bearing").to_numpy())
     found: dict[str, Any] = {"alone": {}, "histories": _histories(frame)}
-    for name in every["held"].runs:
+    for name in (each for each in every["held"].runs if "LIR" in each):
         contact, pendulum, held = (failed[k].loc[name] for k in ("contact", "pendulum", "held"))
         alone = contact & ~pendulum.reindex(contact.index)
         found["alone"][name] = {
             "contact": int(alone.sum()),
             "pendulum": int((pendulum & ~contact.reindex(pendulum.index)).sum()),
             "held": int((alone & held.reindex(alone.index)).sum()),
+            "spin": float(spins.loc[name][alone].median()),
         }
-    each = [_doubts(name, failed) for name in every["held"].runs]
+    each = [_doubts(name, failed) for name in found["alone"]]
     found["doubts"] = [[text, *(part[text] for part in each)] for text in each[0]]
     return found
 
 
-def _failed(data: xr.Dataset) -> pd.Series:
-    # Whether a bearing fails, by device, record, intensity and factors on damping.
+def _by_run(data: xr.Dataset, values: Any) -> pd.Series:
+    # By device, record, intensity and factors on damping.
     keys = KEYS + [name for name in FACTORS if name in data.coords]
-    frame = pd.DataFrame({name: data[name].to_numpy() for name in keys})
-    frame["failed"] = [outcome_of(str(each)) == FAILURE for each in data["status"].to_numpy()]
-    return frame.set_index(keys)["failed"].sort_index()
+    index = pd.MultiIndex.from_arrays([data[name].to_numpy() for name in keys], names=keys)
+    return pd.Series(values, index).sort_index()
+
+
+def _failed(data: xr.Dataset) -> pd.Series:
+    # Whether a bearing fails.
+    return _by_run(data, [outcome_of(str(each)) == FAILURE for each in data["status"].to_numpy()])
 
 
 def _doubts(name: str, failed: Mapping[str, pd.Series]) -> dict[str, list[int]]:
@@ -93,21 +94,36 @@ def _doubts(name: str, failed: Mapping[str, pd.Series]) -> dict[str, list[int]]:
 
 
 def _histories(frame: Frame) -> dict[str, Any]:
-    # Slip and axial force of the corner over time, by `KINDS`.
+    # Histories of the corner by `KINDS`; a trial may leave the record out.
     file, found = Path(__file__).with_name("device-contact.toml"), {}
     with quietly():
-        motion = read_campaign(file).motions[RECORD].scaled(SCALE)  # that a trial may leave out
+        motion = read_campaign(file).motions[RECORD].scaled(SCALE)
         for name, (level, hold) in KINDS.items():
             model = with_parameters(frame, {"interface_hold": hold})
             data = time_history(model, motion, dt=STEP, level=level, duration=SPAN[1])
-            own = data.sel(bearing=BEARING)
-            t = own["time"].to_numpy()
-            kept = (SPAN[0] <= t) & (t <= SPAN[1])
-            slip = 1e3 * np.hypot(*own["interface_slip"].sel(axis=["x", "y"]).to_numpy().T)
-            axial = (own["axial_force"] / own["static_axial_force"]).to_numpy()
-            series = {"time": t, "slip": slip, "axial": axial}
-            found[name] = {key: each[kept].tolist() for key, each in series.items()}
+            found[name] = corner(data, SPAN)
     return found
+
+
+def corner(data: xr.Dataset, span: tuple[float, float]) -> dict[str, list[float]]:
+    """Return a history of the corner: s, m, mm of slip, forces over the load at rest.
+
+    Displacement and force are those along the largest displacement.
+    """
+    own, t = data.sel(bearing=BEARING, axis=["x", "y"]), data["time"].to_numpy()
+    kept, over = (span[0] <= t) & (t <= span[1]), 1.0 / float(own["static_axial_force"])
+    way, force, slip = (
+        own[name].to_numpy() for name in ("bearing_displacement", "bearing_force", "interface_slip")
+    )
+    toward = way[np.hypot(*way.T).argmax()] / np.hypot(*way.T).max()
+    series = {
+        "time": t,
+        "displacement": way @ toward,
+        "force": over * (force @ toward),
+        "axial": over * own["axial_force"].to_numpy(),
+        "slip": 1e3 * np.hypot(*slip.T),
+    }
+    return {key: values[kept].round(4).tolist() for key, values in series.items()}
 
 
 def figure(own: Mapping[str, Any]) -> Figure:

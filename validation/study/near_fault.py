@@ -14,7 +14,7 @@ from frames.plots import plot_style as ps
 from frames.risk.fragility.runs import COMPLETE, FAILURE
 from lir_element.units import STANDARD_GRAVITY as G
 from validation.page import number, table
-from validation.study.device import sizes_of
+from validation.study.shown import sizes_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -66,11 +66,11 @@ def plain(moat: int) -> str:
 
 PLAN, MOAT = "plan 689 mm", "moat 517 mm"
 PAIRS = {
-    PLAN: (lir(517), plain(384)),
-    "plan 838 mm": (lir(650), plain(517)),
-    **{f"moat {moat} mm": (lir(moat), plain(moat)) for moat in (384, 517, 650)},
-    "beyond": (BEYOND, plain(384)),
-    "soft": (lir(517), "DCFP, soft rims, moat 384 mm"),
+    PLAN: (lir(517), plain(402)),
+    "plan 817 mm": (lir(632), plain(517)),
+    **{f"moat {moat} mm": (lir(moat), plain(moat)) for moat in (402, 517, 632)},
+    "beyond": (BEYOND, plain(402)),
+    "soft": (lir(517), "DCFP, soft rims"),
 }
 """Devices that are compared: of equal plan, of equal moat, beyond the checks, soft rims."""
 

@@ -43,7 +43,7 @@ def exceeded(folder: Path, runs: dict[str, Any], part: str) -> Any:
     if part in LIMITS:
         over = runs[LIMITS[part][1]].astype(float) > LIMITS[part][2]
     else:
-        data = zarr.open_group(folder / "results.zarr", mode="r")
+        data: Any = zarr.open_group(folder / "results.zarr", mode="r")
         yields = [at_yield()[str(name).split("-")[0]] for name in data["hinge"][:]]
         over = 1.0 + (data["peak_hinge_rotation"][:] / yields).max(axis=1) > 9.0
     known = np.isin(runs["outcome"], ("complete", FAILED))
@@ -52,9 +52,14 @@ def exceeded(folder: Path, runs: dict[str, Any], part: str) -> Any:
 
 def median(im: Any, over: Any) -> float:
     """Return the median of a lognormal curve by maximum likelihood."""
-    x, sign, rules = np.log(im), 2.0 * over - 1.0, {"xatol": 1e-9, "fatol": 1e-12}
-    unlikely = lambda p: -float(stats.norm.logcdf(sign * (x - p[0]) / math.exp(p[1])).sum())  # noqa: E731
-    found = optimize.minimize(unlikely, [x.mean(), -1.0], method="Nelder-Mead", options=rules)
+    x, sign = np.log(im), 2.0 * over - 1.0
+
+    def unlikely(p: Any) -> Any:
+        return -stats.norm.logcdf(sign * (x - p[0]) / math.exp(p[1])).sum()
+
+    rules: Any = {"xatol": 1e-9, "fatol": 1e-12}
+    start = np.array([x.mean(), -1.0])
+    found: Any = optimize.minimize(unlikely, start, method="Nelder-Mead", options=rules)
     return math.exp(found.x[0])
 
 

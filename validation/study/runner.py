@@ -10,27 +10,33 @@ as `own`; and `figures(campaigns, own)`, by name.
 
 from __future__ import annotations
 
+import datetime
 import json
-import math
+import os
+import platform
+import warnings
+from contextlib import contextmanager
 from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from frames import ModelWarning, MotionWarning
 from frames.design.project.inputs import bearing_of, motions_of
 from frames.risk.campaign.file import campaign_file, read_campaign
-from frames.risk.campaign.page import device_curves, loss_curves
-from frames.risk.campaign.plot_response import response_by_factor
-from frames.risk.campaign.tables import CONFIDENCE, CampaignTables
+from frames.risk.campaign.page import comparison_figures, loss_curves
+from frames.risk.campaign.tables import CampaignTables
+from lir_element import DesignWarning
+from lir_element.errors import AnalysisWarning
+from validation.measurements.benchmark import processor
 from validation.page import DPI, FOLDER, render
 from validation.study import shown
-from validation.study.part import performed, quietly
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Generator, Mapping
 
     from matplotlib.figure import Figure
 
@@ -40,7 +46,9 @@ if TYPE_CHECKING:
     """Of a campaign: its tables by name, "plan", "cost", "digest", "considered", "motions"."""
 
 HERE = Path(__file__).parent
-INFINITE = "inf"
+PARTS = ["near_fault", "records", "device", "buildings", "motions", "after", "loss", "uncertainty"]
+"""In the order of a run; the summary, which needs all, is no campaign."""
+
 TRIED_SECONDS = 10.0
 """Duration of a trial's histories [s]."""
 
@@ -51,13 +59,13 @@ PULSES = "periods", "period_ratios", "velocities", "shapes"
 """Of pulses: what a trial has few of."""
 
 
-class Work(NamedTuple):
-    """Where a part is run and written."""
-
-    store: Path  # a folder for the runs
-    to: Path = FOLDER  # that of the pages
-    workers: int | str = 1
-    trial: int | None = None  # records of each set and intensities; None: all
+@contextmanager
+def quietly() -> Generator[None, None, None]:
+    """Leave out warnings: what is doubtful of a run or a model is in the tables."""
+    with warnings.catch_warnings():
+        for kind in (AnalysisWarning, ModelWarning, MotionWarning, DesignWarning):
+            warnings.simplefilter("ignore", kind)
+        yield
 
 
 def files_of(part: str) -> dict[str, Path]:
@@ -71,81 +79,73 @@ def name_of(part: str) -> str:
     return "study" if part == "records" else f"study_{part}"
 
 
-def run(part: str, work: Work) -> None:
-    """Run a part, or go on with it, and write its page, numbers, tables and figures."""
-    with quietly():
-        _run(part, work)
-    write(part, work.to)
+def run(
+    part: str, store: Path, to: Path = FOLDER, workers: int = 1, few: int | None = None
+) -> None:
+    """Run a part in a store, or go on with it; write page, numbers, tables and figures to a folder.
 
-
-def _run(part: str, work: Work) -> None:
+    A trial has `few` records of each set and intensities.
+    """
     every: dict[str, CampaignTables] = {}
-    told: dict[str, Told] = {}
-    for name, path in files_of(part).items():
-        file = campaign_file(path)
-        if work.trial is not None:
-            file = tried(file, work.trial)
-        campaign = read_campaign(file, store=work.store / part / name)
-        cost = performed(campaign, work.workers)
-        every[name] = tables = CampaignTables(campaign, file)
-        told[name] = _told(tables, cost)
-    module = own_module(part)
-    numbers = module.numbers(every) if hasattr(module, "numbers") else {}
-    texts = {
-        f"tables/{name_of(part)}-{name}-{kind}.csv": table.to_csv(index=False)
-        for name, each in told.items()
-        for kind, table in each["tables"].items()
-    }
-    kept = {name: _kept(each) for name, each in told.items()}
-    texts[f"{name_of(part)}.json"] = json.dumps(rounded({"campaigns": kept, "own": numbers})) + "\n"
-    for place, text in texts.items():
-        _put(work.to / place, text)
-    text = write(part, work.to)
-    for target, drawn in _figures(part, every).items():
-        if f"figures/{target}" in text:
-            _save(drawn(), work.to / "figures" / target)
+    facts: dict[str, Told] = {}
+    with quietly():
+        for name, path in files_of(part).items():
+            file = campaign_file(path) if few is None else tried(campaign_file(path), few)
+            campaign = read_campaign(file, store=store / part / name)
+            campaign.run(workers=workers, progress=True)
+            every[name] = tables = CampaignTables(campaign, file)
+            facts[name] = _facts(tables)
+            for kind, table in tables.all().items():
+                text = table.to_csv(index=table.index.name is not None)
+                _put(_table_path(part, to, name, kind), text)
+        module = own_module(part)
+        numbers = module.numbers(every) if hasattr(module, "numbers") else {}
+        told = rounded({"campaigns": facts, "own": numbers})
+        _put(to / f"{name_of(part)}.json", json.dumps(told) + "\n")
+        text = write(part, to)
+        for target, draw in _figures(part, every).items():
+            if f"figures/{target}" in text:
+                _save(draw(), to / "figures" / target)
 
 
 def write(part: str, folder: Path = FOLDER) -> str:
     """Write and return the page of a part, with its own figures, from the numbers in its folder."""
-    given = json.loads((folder / f"{name_of(part)}.json").read_text(encoding="utf-8"))
-    module = own_module(part)
-    text = page(part, given)
+    module, text = own_module(part), page(part, folder)
     _put(folder / f"{name_of(part)}.md", text)
     if hasattr(module, "figures"):
-        for name, figure in module.figures(told_of(given), given["own"]).items():
+        for name, figure in module.figures(**told_of(part, folder)).items():
             _save(figure, folder / "figures" / f"{name_of(part)}-{name}.png")
     print(f"{name_of(part)}.md is written to {folder}")
     return text
 
 
-def page(part: str, given: Mapping[str, Any]) -> str:
-    """Return the page of a part from its numbers."""
-    every, module = told_of(given), own_module(part)
+def page(part: str, folder: Path = FOLDER) -> str:
+    """Return the page of a part from the numbers in a folder."""
+    told, module = told_of(part, folder), own_module(part)
     names = vars(module) if module is not None else {}
-    script = vars(shown) | names | {"__file__": str(HERE / f"{part}.py")}
     return render(
-        script,
-        own=given["own"],
-        campaigns=every,
-        only=next(iter(every.values())),
+        vars(shown) | names | {"__file__": str(HERE / f"{part}.py")},
+        **told,
+        only=next(iter(told["campaigns"].values())),
         figure_of=lambda name: f"figures/{name_of(part)}-{name}.png",
-        written=_written(part, every),
+        written=_written(part, told["campaigns"]),
     )
 
 
-def told_of(given: Mapping[str, Any]) -> dict[str, Told]:
-    """Return what a template is told of each campaign: its numbers with tables as DataFrames."""
-    return {
-        name: dict(each) | {"tables": {n: _joined(table) for n, table in each["tables"].items()}}
-        for name, each in given["campaigns"].items()
-    }
+def told_of(part: str, folder: Path = FOLDER) -> dict[str, Any]:
+    """Return "campaigns" of a part, by name with tables as DataFrames, and its "own" numbers."""
+    given: dict[str, Any] = json.loads((folder / f"{name_of(part)}.json").read_text("utf-8"))
+    for name, each in given["campaigns"].items():
+        paths = {kind: _table_path(part, folder, name, kind) for kind in each["tables"]}
+        each["tables"] = {
+            kind: pd.read_csv(path) if path.read_text("utf-8").strip() else pd.DataFrame()
+            for kind, path in paths.items()
+        }
+    return given
 
 
-def _joined(table: Mapping[str, Any]) -> pd.DataFrame:
-    words = {INFINITE: math.inf, None: math.nan}
-    data = [[words.get(cell, cell) for cell in row] for row in table["data"]]
-    return pd.DataFrame(data, columns=table["columns"])
+def _table_path(part: str, folder: Path, name: str, kind: str) -> Path:
+    return folder / "tables" / f"{name_of(part)}-{name}-{kind}.csv"
 
 
 def own_module(part: str) -> Any:
@@ -169,9 +169,10 @@ def tried(file: CampaignFile, few: int) -> CampaignFile:
     sets = [given.model_copy(update={"fema_p695": (name,)}) for name in given.fema_p695] or [given]
     read = [motions_of(each, folder, lambda: bearing.period) for each in sets]
     key = "intensities" if given.intensities else "scales"
-    values = getattr(given, key)
     names = tuple(name for each in read for name in list(each)[:few])
-    changed["motions"] = given.model_copy(update={"only": names, key: _few(values, few)})
+    changed["motions"] = given.model_copy(
+        update={"only": names, key: _few(getattr(given, key), few)}
+    )
     if file.sample is not None:
         changed["sample"] = file.sample.model_copy(update={"size": 2 * few})
     return file.model_copy(update=changed)
@@ -179,32 +180,27 @@ def tried(file: CampaignFile, few: int) -> CampaignFile:
 
 def _few(values: tuple[Any, ...], few: int) -> tuple[Any, ...]:
     # So many of them, the first and the last among them.
-    if not values:
-        return ()
-    last = len(values) - 1
-    return tuple(values[k] for k in sorted({k * last // max(few - 1, 1) for k in range(few)}))
+    places = {k * (len(values) - 1) // max(few - 1, 1) for k in range(few)} if values else ()
+    return tuple(values[k] for k in sorted(places))
 
 
-def _told(tables: CampaignTables, cost: Mapping[str, Any]) -> Told:
-    found = {
-        name: table.reset_index() if table.index.name else table
-        for name, table in tables.all().items()
+def _facts(tables: CampaignTables) -> Told:
+    comparison, seconds = tables.comparison, tables.data["seconds_loop"]
+    cost = {
+        "runs": len(seconds),
+        "loop": float(seconds.sum()),
+        "date": f"{datetime.date.today():%Y-%m-%d}",
+        "machine": f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}",
     }
-    comparison = tables.comparison
     return {
-        "tables": found,
+        "tables": list(tables.all()),
         "plan": tables.plan["what was run"].to_dict(),
-        "cost": {**cost, "loop": float(tables.data["seconds_loop"].sum())},
+        "cost": cost,
         "digest": tables.campaign.digest(),
         "considered": None if comparison is None else comparison.considered,
         "motions": len(tables.campaign.motions),
         "axis": tables.axis,
     }
-
-
-def _kept(told: Told) -> dict[str, Any]:
-    tables = {name: _split(table) for name, table in told["tables"].items()}
-    return {**told, "tables": tables}
 
 
 def rounded(value: Any) -> Any:
@@ -216,42 +212,19 @@ def rounded(value: Any) -> Any:
     return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
 
 
-def _split(table: pd.DataFrame) -> dict[str, Any]:
-    # What is not known is null, and what is infinite a word, for which JSON has no number.
-    found = table.astype(object).where(table.notna(), None).replace({math.inf: INFINITE})
-    return {"columns": [str(name) for name in found], "data": found.to_numpy().tolist()}
-
-
 def _figures(part: str, every: Mapping[str, CampaignTables]) -> dict[str, Callable[[], Figure]]:
     # Those of the package's page, drawn when they are called, by the names of their files.
     found: dict[str, Callable[[], Figure]] = {}
     for name, tables in every.items():
-        comparison = tables.comparison
-        groups = {"": list(tables.runs)} if comparison is None else comparison.groups
-        start = _start(part, name)
+        start = f"{name_of(part)}-" + ("" if name == part else f"{name}-")
+        drawn = comparison_figures(tables)
         if len(tables.loss):
             found[f"{start}loss.png"] = partial(loss_curves, tables.loss, tables.axis)
-        for k, devices in enumerate(groups.values(), start=1):
-            end = ".png" if len(groups) == 1 else f"-{k}.png"
-            found[f"{start}response{end}"] = partial(
-                response_by_factor,
-                {device: tables.by_factor[device] for device in devices},
-                axis=tables.axis,
-            )
-            found[f"{start}fragility{end}"] = partial(
-                device_curves,
-                {device: tables.runs[device] for device in devices},
-                tables.curves,
-                tables.limits,
-                confidence=CONFIDENCE,
-                considered=None if comparison is None else comparison.considered,
-            )
+        groups = [*dict.fromkeys(group for _, group in drawn)]
+        for (kind, group), draw in drawn.items():
+            end = f"-{groups.index(group) + 1}" if len(groups) > 1 else ""
+            found[f"{start}{kind}{end}.png"] = draw
     return found
-
-
-def _start(part: str, name: str) -> str:
-    # Of the names of tables and figures of a campaign.
-    return f"{name_of(part)}-" + ("" if name == part else f"{name}-")
 
 
 def _written(part: str, every: Mapping[str, Told]) -> str:

@@ -6,11 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from frames.risk.campaign.comparison import dish_diameter
+from frames.risk.campaign.devices import highest_ratio, moat_of
 from lir_element.units import STANDARD_GRAVITY as G
 from validation.page import table as markdown
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from frames.frame import Frame
 
     Told = Mapping[str, Any]
 
@@ -60,6 +64,21 @@ def where(table: pd.DataFrame, **chosen: object) -> pd.DataFrame:
 def _column(row: Mapping[str, Any], name: str) -> str:
     # The column of this name, whatever its unit.
     return next((str(c) for c in row.keys() if str(c).split(" [")[0] == name), name)  # noqa: SIM118
+
+
+def sizes_of(frame: Frame) -> dict[str, float | None]:
+    """Return sizes of a building's bearings: m, friction of the interface, ratio of the checks."""
+    bearings = [link.bearing for link in frame.bearings.values()]
+    dishes, plain = [dish_diameter(each) for each in bearings], bearings[0].is_dcfp
+    return {
+        "plan": max(dishes),
+        "least plan": min(dishes),
+        "capacity": min(each.lateral_capacity for each in bearings),
+        "moat": moat_of(bearings),
+        "slider": min(each.slider_radius for each in bearings),
+        "interface": None if plain else bearings[0].interface_friction,
+        "ratio": None if plain else highest_ratio(frame),
+    }
 
 
 def interval(row: Mapping[str, Any], name: str, form: str = ".2f", factor: float = 1.0) -> str:
@@ -145,12 +164,10 @@ def causes(failures: pd.DataFrame) -> str:
 
 
 def cost_line(campaigns: Mapping[str, Told]) -> str:
-    """Return what campaigns cost, in sentences, with the digests of their results."""
-    costs = [each["cost"] for each in campaigns.values()]
-    runs, computed = (sum(cost[key] for cost in costs) for key in ("runs", "computed"))
-    clock, loop = (sum(cost[key] for cost in costs) for key in ("clock", "loop"))
+    """Return the cost of campaigns, in sentences, with the digests of their results."""
+    runs, loop = (sum(each["cost"][key] for each in campaigns.values()) for key in ("runs", "loop"))
     digests = ", ".join(f"`{each['digest'][:16]}`" for each in campaigns.values())
     return (
-        f"{runs} histories, {computed} of them in the last call ({clock:.0f} s by the clock); their "
-        f"time loops took {loop:.0f} s. Digests of the results begin with {digests}."
+        f"{runs} histories; their time loops took {loop:.0f} s of one core. Digests of the results "
+        f"begin with {digests}."
     )

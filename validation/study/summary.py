@@ -1,6 +1,4 @@
-"""The study in two pages, from the numbers of its parts: writes docs/validation/study_summary.md.
-
-    python -m validation.study.summary [--again]
+"""The study in two pages, from the numbers of its parts: `python -m validation.study summary`.
 
 Two histories are run for its figures, and kept in study_summary.json; with `--again` none is.
 """
@@ -8,56 +6,56 @@ Two histories are run for its figures, and kept in study_summary.json; with `--a
 from __future__ import annotations
 
 import json
-import sys
+import math
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.stats import norm
 
 from frames import Recording, peaks, time_history
 from frames.plots import plot_style as ps
+from frames.risk.campaign.comparison import COLLAPSE
 from frames.risk.campaign.file import models_in, read_campaign
 from validation.page import FOLDER, render, table
 from validation.study import device, recompute
 from validation.study import near_fault as pulses
-from validation.study.device import LIMITS, LIR, REFERENCE, RIMS, TERMS, ratio_of
-from validation.study.part import quietly
-from validation.study.runner import HERE, name_of, rounded, told_of
-from validation.study.shown import rows_of, where
+from validation.study.device import LEVELS, LIR, REFERENCE, RIMS
+from validation.study.levels import corner
+from validation.study.runner import HERE, PARTS, quietly, rounded, told_of
+from validation.study.shown import interval, rows_of, where
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
-    import xarray as xr
     from matplotlib.figure import Figure
 
     Own = Mapping[str, Any]
     Parts = Mapping[str, Own]
 
 NAME = "study_summary"
-DRIFT, DUCTILITY, FLOOR, COLLAPSE = LIMITS
+LIMITS = DRIFT, DUCTILITY, FLOOR, _ = (
+    "storey drift 2 %",
+    "ductility 4",
+    "floor acceleration 1 g",
+    COLLAPSE,
+)
 DECIDED = ("better", "worse")
 DCFP = f"DCFP {REFERENCE}, {RIMS[0]}"
 
-OTHERS = ("records", "buildings", "after", "motions", "uncertainty", "loss")
-
-RECORD, SCALE, STEP, BEARING = "Kocaeli, Turkey 1999, Duzce", 2.2, 0.002, "bearing-2-2"
-"""Of the histories: the record, its Sa [m/s2], the step [s], a corner."""
+RECORD, SCALE, STEP = "Kocaeli, Turkey 1999, Duzce", 2.2, 0.002
+"""Of the histories: the record, its Sa [m/s2], the step [s]."""
 
 SPAN, IMPACTS = (7.0, 17.0), ((8.5, 9.3), (14.1, 14.9))
 """Times that are kept, and two impacts [s]."""
 
-PRINT = 180  # of figures [1/in]
+PRINT = 300  # of figures [1/in]
 
 
 def parts_of(folder: Path = FOLDER) -> Parts:
     """Return the numbers of the parts."""
-    found = {}
-    for part in ("device", "near_fault", *OTHERS):
-        given = json.loads((folder / f"{name_of(part)}.json").read_text(encoding="utf-8"))
-        found[part] = {"campaigns": told_of(given), "own": given["own"]}
-    return found
+    return {part: told_of(part, folder) for part in PARTS}
 
 
 def histories() -> dict[str, Any]:
@@ -68,34 +66,21 @@ def histories() -> dict[str, Any]:
         for name in (LIR, DCFP):
             kept = Recording(every=5, around_impacts=(0.1, 0.4))
             run = time_history(frames[name], motion, dt=STEP, level="contact", recording=kept)
-            found[name] = _kept(run)
+            axial = float((run["axial_force"] / run["static_axial_force"]).max())
+            most = peaks(run)["value"].to_dict() | {"axial": axial}
+            found[name] = corner(run, SPAN) | {"peaks": rounded(most)}
     return found
 
 
-def _kept(data: xr.Dataset) -> dict[str, Any]:
-    # Of one bearing, along its largest displacement, forces over its load at rest.
-    own, t = data.sel(bearing=BEARING, axis=["x", "y"]), data["time"].to_numpy()
-    way, force = (own[f"bearing_{key}"].to_numpy() for key in ("displacement", "force"))
-    toward = way[np.hypot(*way.T).argmax()] / np.hypot(*way.T).max()
-    over = 1.0 / float(own["static_axial_force"])
-    series = {"time": t, "displacement": way @ toward, "force": over * (force @ toward)}
-    series["axial"] = over * own["axial_force"].to_numpy()
-    kept = (SPAN[0] <= t) & (t <= SPAN[1])
-    axial = float((data["axial_force"] / data["static_axial_force"]).max())
-    most = peaks(data)["value"].to_dict() | {"axial": axial}
-    found = {key: values[kept].round(4).tolist() for key, values in series.items()}
-    return found | {"peaks": rounded(most)}
+def pairs(told: Own, limit: str = COLLAPSE, group: str = "", over: str = "") -> list[Own]:
+    """Return ratios of a campaign for a limit state, by starts of groups and ends of DCFPs."""
+    rows = rows_of(where(told["tables"]["ratios"], limit_state=limit))
+    return [r for r in rows if r["rims"].startswith(group) and r["over"].endswith(over)]
 
 
-def pairs(own: Own, limit: str, terms: str = "plan", end: str = "", level: int = 0) -> list[Own]:
-    """Return comparisons of a limit state on equal terms, of DCFPs whose name ends so."""
-    rows = own[device.LEVELS[level]]["pairs"][terms]
-    return [row for row in rows if row["limit"] == limit and row["other"].endswith(end)]
-
-
-def span(rows: Sequence[Own]) -> str:
-    """Return the range of ratios of medians."""
-    found = [row["ratio"][0] for row in rows if row["ratio"]]
+def span(rows: Sequence[Own], name: str = "ratio [-]") -> str:
+    """Return the range of a number of rows, of ratios of medians unless named."""
+    found = [row[name] for row in rows if math.isfinite(row[name])]
     ends = dict.fromkeys(f"{end:.2f}" for end in (min(found), max(found))) if found else ()
     return " to ".join(ends) or "not known"
 
@@ -106,41 +91,30 @@ def verdicts(rows: Sequence[Own]) -> str:
     return ", ".join(f"{word} in {count} of {len(rows)}" for word, count in counted.items())
 
 
+def collapses(told: Own, name: str) -> str:
+    """Return the share of collapse at the maximum considered earthquake by the curve [%]."""
+    (row,) = rows_of(where(told["tables"]["margins"], device=name))
+    beyond = math.log(told["considered"] / row["median [m/s2]"]) / row["dispersion [-]"]
+    return f"{100.0 * norm.cdf(beyond):.0f}"
+
+
 def _cell(row: Own) -> str:
     # Ratio, and records with fewer and more exceedances; bold if the exact test decides.
-    text = f"{ratio_of(row)}; {row['less']}:{row['more']}"
+    text = f"{row['ratio [-]']:.2f}; {row['less']:.0f}:{row['more']:.0f}"
     return f"**{text}**" if row["verdict"] in DECIDED else text
 
 
-def table_of(own: Own) -> str:
+def table_of(part: Own) -> str:
     """Return comparisons at level contact, and collapse at level pendulum, in Markdown."""
+    contact, pendulum = (part["campaigns"][level] for level in LEVELS)
+    simple = {(row["rims"], row["over"]): _cell(row) for row in pairs(pendulum)}
     lines = []
-    for terms in TERMS:
-        simple = {row["other"]: _cell(row) for row in pairs(own, COLLAPSE, terms, level=1)}
-        for rows in zip(*(pairs(own, limit, terms) for limit in LIMITS), strict=True):
-            name, size = rows[0]["other"], 1e3 * own["devices"][rows[0]["other"]]["plan"]
-            if not name.endswith(RIMS[2]) or name.startswith(f"DCFP {REFERENCE}"):
-                text = f"{size:.0f} mm, {name.rsplit(', ', 1)[1]}"
-                lines.append([terms, text, *map(_cell, rows), simple.get(name, "-")])
-    return table(["equal", "DCFP", *LIMITS, "collapse, `pendulum`"], lines)
-
-
-def line_of(part: Own) -> str:
-    """Return level of a part and the ratios of collapse of its LIR-DCFPs over its DCFPs."""
-    told = part["campaigns"].values()
-    levels = sorted({f"`{each['plan']['level of fidelity']}`" for each in told})
-    rows = [
-        row | {"ratio": [row["ratio [-]"]] if row["ratio [-]"] > 0.0 else None}
-        for each in told
-        if "ratios" in each["tables"]
-        for row in rows_of(where(each["tables"]["ratios"], limit_state=COLLAPSE))
-        if "LIR" in row["own"]
-        and "LIR" not in row["over"]
-        and ("stop" in row["own"]) is ("stop" in row["over"])
-    ]
-    ratios = f"{span(rows)}, " if any(row["ratio"] for row in rows) else ""
-    said = f" Collapse: {ratios}{verdicts(rows)}." if rows else ""
-    return f"Level {', '.join(levels)}.{said}"
+    for rows in zip(*(pairs(contact, limit) for limit in LIMITS), strict=True):
+        name, group = rows[0]["over"], rows[0]["rims"]
+        text = f"{1e3 * part['own']['devices'][name]['plan']:.0f} mm, {name.rsplit(', ', 1)[1]}"
+        same = simple.get((group, name), "-")
+        lines.append([group.split(",")[0], text, *map(_cell, rows), same, collapses(contact, name)])
+    return table(["equal", "DCFP", *LIMITS, "collapse, `pendulum`", "collapse at MCE [%]"], lines)
 
 
 def recomputed() -> str:
@@ -155,7 +129,9 @@ def recomputed() -> str:
 def page(parts: Parts, kept: Own) -> str:
     """Return the page in Markdown."""
     own, near = parts["device"]["own"], parts["near_fault"]["own"]
-    return render(globals(), parts=parts, kept=kept, own=own, near=near)
+    campaigns = [each for part in parts.values() for each in part["campaigns"].values()]
+    told = {"own": own, "near": near, "campaigns": campaigns}
+    return render(globals(), parts=parts, kept=kept, **told, **parts["device"]["campaigns"])
 
 
 def decision_figure(parts: Parts) -> Figure:
@@ -191,17 +167,12 @@ def history_figures(kept: Own) -> dict[str, Figure]:
     return figures
 
 
-def main(given: Sequence[str] | None = None) -> None:
-    """Write the page from the numbers of the parts; with `--again` run nothing."""
+def main(*, again: bool = False) -> None:
+    """Write the page from the numbers of the parts, with histories that are run or kept."""
     parts, path = parts_of(), FOLDER / f"{NAME}.json"
-    again = "--again" in (sys.argv if given is None else given)
     kept = json.loads(path.read_text(encoding="utf-8")) if again else histories()
     path.write_text(json.dumps(kept) + "\n", encoding="utf-8")
     path.with_suffix(".md").write_text(page(parts, kept), encoding="utf-8")
     for name, figure in (history_figures(kept) | {"decision": decision_figure(parts)}).items():
         target = FOLDER / "figures" / f"{NAME}-{name}.png"
         figure.savefig(target, dpi=PRINT, metadata={"Software": None})
-
-
-if __name__ == "__main__":
-    main()

@@ -52,7 +52,8 @@ def changes(
     found = np.array(each)
     drawn = np.random.default_rng(1).integers(0, len(found), (DRAWS, len(found)))
     ends = np.quantile(found[drawn].mean(axis=1), [0.05, 0.95], axis=0)
-    return np.column_stack([found.mean(axis=0), *ends]).tolist()
+    rows: list[list[float]] = np.column_stack([found.mean(axis=0), *ends]).tolist()
+    return rows
 
 
 def change(row: list[float]) -> str:
@@ -68,7 +69,7 @@ def index(row: Mapping[str, Any]) -> str:
 
 def deciding(own: Mapping[str, Any], device: str) -> str:
     """Return the properties whose change is beyond the error of the plane, the largest first."""
-    error = abs(own["DCFP"]["changes"]["interface_friction_factor"][0]) + 1e-9
+    error = max(map(abs, own["DCFP"]["changes"]["interface_friction_factor"])) + 1e-9
     rows = own[device]["changes"]
     rows = {name: row for name, row in rows.items() if row[1] > error or row[2] < -error}
     found = sorted(rows, key=lambda name: -abs(rows[name][0]))
