@@ -4,7 +4,8 @@
 
 ARCHIVES is the folder of `python -m validation.study --archive ARCHIVES --store STORE`. Of two devices
 of each campaign: runs that exceed a limit state, failed bearings, medians; their ratio, the exact p.
-How far they are from the page's is written to its tables/recomputed.csv.
+How far they are from the page's is written to its tables/recomputed.csv. The peak velocity of a sampled
+pulse is 0.01 % off its nominal one, which is computed with here.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 import sys
 import tempfile
 import zipfile
@@ -67,7 +69,8 @@ def exact(own: dict[Any, float], other: dict[Any, float]) -> float:
     """Return p of the exact two-sided sign test: a record counts once, by the sum of its signs."""
     signs: dict[str, float] = {}
     for key in own.keys() & other.keys():
-        signs[key[0]] = signs.get(key[0], 0.0) + own[key] - other[key]
+        record = re.sub(r", (\d+ degrees|then .*|horizontal)$", "", key[0])
+        signs[record] = signs.get(record, 0.0) + own[key] - other[key]
     more, less = (sum(way * sign > 0.0 for sign in signs.values()) for way in (1, -1))
     return float(stats.binomtest(more, max(more + less, 1)).pvalue)
 
