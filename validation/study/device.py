@@ -196,6 +196,8 @@ def margins_over(panel: Axes, own: Own, margins: pd.DataFrame, key: str) -> None
     for k, end in enumerate(("", *(f", {rims}" for rims in RIMS))):
         start, at = "DCFP " if end else "LIR-DCFP ", {}
         for name, one in own["devices"].items():
+            if key == "moat" and "unbreakable" in name:
+                continue  # which have none
             if name.startswith(start) and name.endswith(end) and ("," in name) is bool(end):
                 size = 1e-3 * sum(one["cost"].values()) if key == "cost" else 1e3 * one[key]
                 at[name] = size + 4.0 * (k - 1.5) * (key != "cost")

@@ -31,8 +31,9 @@ READING = (
     "campaign and set of records have a false-discovery rate of 10 %. The median intensity of the "
     "LIR-DCFP over that of the DCFP follows, with its interval of 90 %: above 1 the LIR-DCFP is "
     'better. The last two numbers count records. "3 to 0": the LIR-DCFP exceeds the limit less often '
-    "in 3 records, and more often in none. Comparisons share records and the building, so they are "
-    "not independent."
+    "in 3 records, and more often in none. If too few differ, no outcome of these records could decide. "
+    "Intervals are of medians and tests of records, so that both may disagree. Comparisons share "
+    "records and the building: they are not independent."
 )
 """How to read tables of `judged`."""
 

@@ -18,12 +18,12 @@ from frames.plots import plot_style as ps
 from frames.risk.campaign.comparison import COLLAPSE
 from frames.risk.campaign.file import models_in, read_campaign
 from validation.page import FOLDER, render, table
-from validation.study import device, recompute
+from validation.study import device, recompute, shown
 from validation.study import near_fault as pulses
 from validation.study.device import LEVELS, LIR, REFERENCE, RIMS
 from validation.study.levels import corner
 from validation.study.runner import HERE, PARTS, quietly, rounded, told_of
-from validation.study.shown import interval, rows_of, where
+from validation.study.shown import rows_of, where
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -131,7 +131,8 @@ def page(parts: Parts, kept: Own) -> str:
     own, near = parts["device"]["own"], parts["near_fault"]["own"]
     campaigns = [each for part in parts.values() for each in part["campaigns"].values()]
     told = {"own": own, "near": near, "campaigns": campaigns}
-    return render(globals(), parts=parts, kept=kept, **told, **parts["device"]["campaigns"])
+    names = vars(shown) | globals()
+    return render(names, parts=parts, kept=kept, **told, **parts["device"]["campaigns"])
 
 
 def decision_figure(parts: Parts) -> Figure:
