@@ -464,7 +464,8 @@ def test_a_folder_that_holds_something_else_is_left_alone(tmp_path: Path) -> Non
     (tmp_path / "thesis.txt").write_text("mine")
     refused(CampaignError, "exists and holds no campaign", small(tmp_path).run)
     assert [p.name for p in tmp_path.iterdir()] == ["thesis.txt"]
-    refused(CampaignError, "holds no campaign: name the folder", open_campaign, tmp_path)
+    for path in (tmp_path, tmp_path / "thesis.txt"):
+        refused(CampaignError, "holds no campaign: name the folder", open_campaign, path)
 
 
 def test_a_batch_is_an_eighth_within_bounds(tmp_path: Path) -> None:

@@ -107,7 +107,7 @@ class CampaignStore:
         """
         try:
             found = json.loads((self.path / PLAN).read_text(encoding="utf-8"))
-        except FileNotFoundError as cause:
+        except (FileNotFoundError, NotADirectoryError) as cause:
             msg = f"{self.path} holds no campaign: name the folder that one was run in"
             raise CampaignError(msg) from cause
         except ValueError as cause:

@@ -97,7 +97,7 @@ class StoreWriter(CampaignStore):
                 msg = f"{self.path} was made by another process just now: run again to resume it"
                 raise CampaignError(msg) from cause
             why = os.strerror(cause.errno) if cause.errno else cause
-            msg = f"{self.path} could not be written: {why}: make room"
+            msg = f"{self.path} could not be written: {why}: make room, or name another store"
             raise OSError(cause.errno, msg) from cause
         finally:
             shutil.rmtree(beside, ignore_errors=True)
