@@ -27,7 +27,7 @@ SETTING = (
 """Building and devices of most parts, in words."""
 
 READING = (
-    "Cells begin with the verdict of an exact two-sided sign test of the records; the verdicts of a "
+    "Cells begin with the verdict of an exact two-sided sign test of the records. Verdicts of a "
     "campaign and set of records have a false-discovery rate of 10 %. The median intensity of the "
     "LIR-DCFP over that of the DCFP follows, with its interval of 90 %: above 1 the LIR-DCFP is "
     'better. The last two numbers count records. "3 to 0": the LIR-DCFP exceeds the limit less often '
