@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from frames.risk.campaign.tables import CampaignTables
 
 DRAWS = 1000
-SHOWN = ("storey drift, mean", "floor acceleration in plan, mean", "base shear over weight")
-"""Results whose indices the page has."""
 
 
 def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
@@ -59,12 +57,6 @@ def changes(
 def change(row: list[float]) -> str:
     """Return a change with its interval, in per cent."""
     return "{:+.0f} ({:+.0f} to {:+.0f})".format(*(100.0 * value for value in row))
-
-
-def index(row: Mapping[str, Any]) -> str:
-    """Return a total index with its interval; a dash if it is not known."""
-    value, low, high = (row[f"total{end} [-]"] for end in ("", ", low", ", high"))
-    return f"{value:.2f} ({low:.2f} to {high:.2f})" if value >= 0.0 else "-"
 
 
 def deciding(own: Mapping[str, Any], device: str) -> str:
