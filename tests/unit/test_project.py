@@ -241,7 +241,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
         (
             "[limits]",
             '[superstructure]\nR = "eight"\n[limits]',
-            r'R = "eight" is not a number.*as "1.0"',
+            'R = "eight" is not a number: write a pure number',
         ),
         ("scale = 0.8", "scale = 0", 'scale = 0 must be "spectrum" or a positive factor'),
         ("scale = 0.8", "scale = inf", 'must be "spectrum" or a positive factor'),

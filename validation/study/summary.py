@@ -18,12 +18,12 @@ from frames.plots import plot_style as ps
 from frames.risk.campaign.comparison import COLLAPSE
 from frames.risk.campaign.file import models_in, read_campaign
 from validation.page import FOLDER, render, table
-from validation.study import device, recompute, shown
+from validation.study import device, recompute
 from validation.study import near_fault as pulses
 from validation.study.device import LEVELS, LIR, REFERENCE, RIMS
 from validation.study.levels import corner
 from validation.study.runner import HERE, PARTS, quietly, rounded, told_of
-from validation.study.shown import rows_of, where
+from validation.study.shown import interval, rows_of, where
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -50,7 +50,7 @@ RECORD, SCALE, STEP = "Kocaeli, Turkey 1999, Duzce", 2.2, 0.002
 SPAN, IMPACTS = (7.0, 17.0), ((8.5, 9.3), (14.1, 14.9))
 """Times that are kept, and two impacts [s]."""
 
-PRINT = 300  # of figures [1/in]
+PRINT = 180  # of figures [1/in]
 
 
 def parts_of(folder: Path = FOLDER) -> Parts:
@@ -128,11 +128,18 @@ def recomputed() -> str:
 
 def page(parts: Parts, kept: Own) -> str:
     """Return the page in Markdown."""
-    own, near = parts["device"]["own"], parts["near_fault"]["own"]
-    campaigns = [each for part in parts.values() for each in part["campaigns"].values()]
-    told = {"own": own, "near": near, "campaigns": campaigns}
-    names = vars(shown) | globals()
-    return render(names, parts=parts, kept=kept, **told, **parts["device"]["campaigns"])
+    device_campaigns = parts["device"]["campaigns"]
+    return render(
+        globals(),
+        parts=parts,
+        kept=kept,
+        own=parts["device"]["own"],
+        near=parts["near_fault"]["own"],
+        contact=device_campaigns["contact"],
+        held=device_campaigns["held"],
+        campaigns=[each for part in parts.values() for each in part["campaigns"].values()],
+        interval=interval,
+    )
 
 
 def decision_figure(parts: Parts) -> Figure:
