@@ -198,6 +198,8 @@ def test_several_structures_with_hinges(tmp_path: Path) -> None:
         done = run(app, ["campaign", "--no-figures", str(folder / "two.toml")])
     assert done.exit_code == 0, done.output
     data = open_campaign(folder / "two-results").results().load()
+    page = (folder / "two-results/campaign.html").read_text()
+    assert "Collapse is failure of a bearing, or a ductility of a plastic hinge above 3." in page
     margins = pd.read_csv(folder / "two-results/campaign-margins.csv", index_col=0)
     for name, frame in frames.items():
         at = data.isel(run=np.flatnonzero(data["model"].to_numpy() == name))

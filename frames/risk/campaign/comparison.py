@@ -239,7 +239,7 @@ class DeviceComparison:
         for name, frame in self.frames.items():
             bearing = max(
                 (link.bearing for link in frame.bearings.values()),
-                key=lambda each: each.slider_radius,
+                key=lambda each: (each.slider_radius, each.resolved()["design_load"]),
             )
             reached = runs[name].demand("bearing displacement")
             largest = float(reached[np.isfinite(reached)].max(initial=0.0))

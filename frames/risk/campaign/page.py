@@ -14,7 +14,7 @@ from frames.design.report.page import Picture, Table, page_table, page_template,
 from frames.design.report.tables import in_mm_and_kn
 from frames.plots import plot_style as ps
 from frames.results.storage import csv_of, write_whole
-from frames.risk.campaign.comparison import LIR
+from frames.risk.campaign.ductility import DUCTILITY
 from frames.risk.campaign.plot_response import response_by_factor
 from frames.risk.campaign.tables import CONFIDENCE
 from frames.risk.fragility.plot_fragility import draw_curve, fragility_curves, shown_intensity
@@ -46,6 +46,7 @@ def compared(
         "collapse": _collapse(comparison.collapse),
         "considered": _considered(comparison, tables),
         "pictures": pictures,
+        "own": bool(tables.file.devices),
     }
 
 
@@ -119,7 +120,7 @@ def _ratio_table(ratios: pd.DataFrame) -> Table:
         rows.setdefault(place, {})[f"over {over}"] = said
     words = pd.DataFrame(list(rows.values()))
     words.insert(0, "limit state", [limit for _, limit in rows])
-    return page_table(words.set_index(pd.Index([rims for rims, _ in rows])), f"{LIR} with")
+    return page_table(words.set_index(pd.Index([rims for rims, _ in rows])), "group")
 
 
 def _margin_table(margins: pd.DataFrame) -> Table:
@@ -213,9 +214,12 @@ def loss_curves(loss: pd.DataFrame, axis: str) -> Figure:
 
 
 def _collapse(limit: LimitState) -> str:
+    found = "Collapse is failure of a bearing"
     if limit.limit is None:
-        return "Collapse is failure of a bearing"
-    return f"Collapse is failure of a bearing, or a storey drift above {100.0 * limit.limit:g} %"
+        return found
+    if limit.quantity == DUCTILITY:
+        return f"{found}, or a ductility of a plastic hinge above {limit.limit:g}"
+    return f"{found}, or a storey drift above {100.0 * limit.limit:g} %"
 
 
 def _considered(comparison: DeviceComparison, tables: CampaignTables) -> str:
