@@ -307,7 +307,7 @@ def write_page(
         if len(failures)
         else None,
         responses=[
-            _in_words(in_mm_and_kn(one), f"{tables.axis}, {name}")
+            (name, _in_words(in_mm_and_kn(one), tables.axis))
             for name, one in _parts(tables.response)
         ],
         fragility=_fragility_table(fragility) if len(fragility) else None,
