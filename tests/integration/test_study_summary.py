@@ -61,6 +61,7 @@ def test_the_fixed_sentences_hold(parts, kept):
             for each in (contact, held)
         )
         assert all(ratio > free[name] for name, ratio in kept_shut.items())
+    assert said(parts["after"]["campaigns"]["after"], COLLAPSE, "a stop") == {"not told apart"}
     met, more = pulses.medians(near, pulses.PLAN), pulses.counts(near, pulses.MOAT)
     assert all(met[key][0] < met[key][1] for key in ("acceleration", "drift", "shear"))
     assert more[pulses.PLAIN_BETTER] > more[pulses.LIR_BETTER]
