@@ -498,6 +498,11 @@ def test_the_intensity_considered_may_be_given(folder: Path) -> None:
         ("rims = [0.5", 'devices = ["FPS"]\nrims = [0.5', '"FPS" is none of DCFP'),
         ("[compare]", f"{OWN}[compare]", "compare.rims: [devices] says it"),
         (COMPARED, f'{OWN}[compare]\ndevices = ["LIR"]\n', "none of wide, tall"),
+        (
+            COMPARED,
+            f'{OWN}[compare.groups]\na = ["LIR", "LIR"]\n',
+            "groups.a = ['LIR', 'LIR'] has one",
+        ),
         (COMPARED, f'{OWN}[compare.groups]\na = ["LIR", "FPS"]\n', 'a: "FPS" is none of LIR, wide'),
         (COMPARED, f'{OWN}capacity = "0.3 m"\n', "[devices.tall] plan and capacity are given"),
         (COMPARED, f"{OWN}interface_friction = 0.2\n", "applies to an LIR-DCFP"),

@@ -294,8 +294,8 @@ class CompareTable(ComparedDevices, Table):
         if SAME_PLAN in self.devices and self.slider_radius is None:
             msg = f'"{SAME_PLAN}" needs slider_radius: give one below that of the LIR-DCFP'
             raise ValueError(msg)
-        for key in ("devices", "rims"):
-            values = getattr(self, key)
+        lists = {f"groups.{name}": each for name, each in self.groups.items()}
+        for key, values in (lists | {"devices": self.devices, "rims": self.rims}).items():
             if len({*values}) < len(values):
                 msg = f"{key} = {list(values)} has one twice: name it once"
                 raise ValueError(msg)
@@ -444,9 +444,10 @@ class CampaignFile(WholeFile):
     def groups(self) -> dict[str, list[str]]:
         """Return the devices that are run by group; the first is compared with the others."""
         run, compare = list(self.run_devices()), self.compare or CompareTable()
-        others = compare.devices if "devices" in compare.model_fields_set else run[1:]
+        others = compare.devices if "devices" in compare.model_fields_set else run
+        whole = {RIMS_OF_EACH: dict.fromkeys((run[0], *others))}
         found = {}
-        for name, (first, *rest) in (compare.groups or {RIMS_OF_EACH: (run[0], *others)}).items():
+        for name, (first, *rest) in (compare.groups or whole).items():
             kept = [each for each in rest if each in run]
             if first in run and kept:
                 found[name] = [first, *kept]
