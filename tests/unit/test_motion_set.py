@@ -325,7 +325,10 @@ def test_a_motion_is_a_ground_motion() -> None:
         ("name,x\na,a.txt\n", "unit"),
         ("name,x,unit,dt\na,a.txt,g,fast\n", "dt = fast is not a number: give the time step in s"),
         ("name,file,x,unit\na,a.txt,east,g\n", "x = east is not a number: give a whole number"),
-        ("name,file,x,unit\na,$NONE/a.txt,1,g\n", r"\$NONE.a.txt is not a file"),
+        (
+            "name,file,x,unit\na,$NONE/a.txt,1,g\n",
+            r"\$NONE.a.txt is not a file: set the environment",
+        ),
         ("name,x,unit,skip\na,a.txt,g,few\n", "skip = few is not a number: give a whole number"),
     ],
 )

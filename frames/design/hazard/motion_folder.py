@@ -174,7 +174,9 @@ def _motion(folder: Path, row: Mapping[str, str], table: str) -> tuple[GroundMot
     absent = [path for path in files if not path.is_file()]
     if absent or not files:
         found = f"{absent[0]} is not a file" if absent else "no x, y, z or record is given"
-        msg = f"{name}: {found}: name a file of the folder in x, y and z"
+        unset = "$" in found  # of a name that was filled in as far as variables are set
+        usual = "name a file of the folder in x, y and z"
+        msg = f"{name}: {found}: {'set the environment variable in its name' if unset else usual}"
         raise MotionError(msg)
     if "record" in row:
         traces, azimuths = record_traces(files, {axis: row.get(axis) for axis in AXES})
