@@ -105,12 +105,14 @@ def _cell(row: Own) -> str:
 
 
 def table_of(part: Own) -> str:
-    """Return comparisons at level contact, and collapse at level pendulum, in Markdown."""
+    """Return comparisons with the LIR-DCFP of the reference plan at both levels, in Markdown."""
     contact, pendulum = (part["campaigns"][level] for level in LEVELS)
     simple = {(row["rims"], row["over"]): _cell(row) for row in pairs(pendulum)}
     lines = []
     for rows in zip(*(pairs(contact, limit) for limit in LIMITS), strict=True):
         name, group = rows[0]["over"], rows[0]["rims"]
+        if group.endswith((device.SMALL, device.LARGE)):
+            continue
         text = f"{1e3 * part['own']['devices'][name]['plan']:.0f} mm, {name.rsplit(', ', 1)[1]}"
         same = simple.get((group, name), "-")
         lines.append([group.split(",")[0], text, *map(_cell, rows), same, collapses(contact, name)])
