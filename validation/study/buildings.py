@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from frames import modes
 from frames.risk.fragility.runs import COMPLETE
-from validation.study.shown import sizes_of
+from validation.study.shown import bearings_of, sizes_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,7 +26,7 @@ def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
     for name in tables.file.structures:
         devices = [each for each in tables.frames if each.startswith(f"{name}, ")]
         frame = tables.frames[devices[0]]
-        bearings = [link.bearing for link in frame.bearings.values()]
+        bearings = bearings_of(frame)
         loads = [1e-3 * each.resolved()["design_load"] for each in bearings]
         found[name] = sizes_of(frame) | {
             "period": float(modes(frame, 1, bearings="fixed").periods[0]),

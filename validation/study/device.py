@@ -12,7 +12,7 @@ from frames.plots import plot_style as ps
 from frames.risk import Device
 from frames.risk.campaign.comparison import dish_diameter
 from validation.study import levels
-from validation.study.shown import sizes_of
+from validation.study.shown import bearings_of, sizes_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -105,11 +105,6 @@ def cost_of(bearings: Iterable[LIRBearing], prices: Prices = PRICES) -> dict[str
         for name, value in parts_of(bearing, prices).items():
             total[name] = total.get(name, 0.0) + value
     return total
-
-
-def bearings_of(frame: Frame) -> list[LIRBearing]:
-    """Return the bearings of a building."""
-    return [link.bearing for link in frame.bearings.values()]
 
 
 def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from frames.frame import Frame
+    from lir_element import LIRBearing
 
     Told = Mapping[str, Any]
 
@@ -67,9 +68,14 @@ def _column(row: Mapping[str, Any], name: str) -> str:
     return next((str(c) for c in row.keys() if str(c).split(" [")[0] == name), name)  # noqa: SIM118
 
 
+def bearings_of(frame: Frame) -> list[LIRBearing]:
+    """Return the bearings of a building."""
+    return [link.bearing for link in frame.bearings.values()]
+
+
 def sizes_of(frame: Frame) -> dict[str, float | None]:
     """Return sizes of a building's bearings: m, friction of the interface, ratio of the checks."""
-    bearings = [link.bearing for link in frame.bearings.values()]
+    bearings = bearings_of(frame)
     dishes, plain = [dish_diameter(each) for each in bearings], bearings[0].is_dcfp
     return {
         "plan": max(dishes),

@@ -398,3 +398,8 @@ class MotionSet(MotionCollection):
         factors = {name: factor / before.get(name, 1.0) for name, factor in done.factors.items()}
         motions = {name: motion.scaled(factors[name]) for name, motion in self.items()}
         return MotionSet(motions, self.facts, done)
+
+
+def facts_of(motions: object) -> Mapping[str, Mapping[str, object]]:
+    """Return the facts of a MotionSet by motion; other motions have none."""
+    return motions.facts if isinstance(motions, MotionSet) else {}

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from frames._errors import ModelWarning
 from frames.batch.cases import BatchProgress, grid, named_models, named_motions, tell
 from frames.batch.processes import crew_of
-from frames.design.hazard.motion_set import MotionSet
+from frames.design.hazard.motion_set import MotionSet, facts_of
 from frames.frame import Frame
 from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
@@ -136,7 +136,7 @@ class Campaign:
         require_type("record", record, (Recording, type(None)), "a Recording, or None")
         own = checked_measures(measures)
         structures, grounds = _named(models), named_motions(motions)
-        self._facts = motions.facts if isinstance(motions, MotionSet) else {}
+        self._facts = facts_of(motions)
         if intensity is not None or intensities is not None:
             grounds, scales = _at_intensities(grounds, scales, intensity, intensities)
         one = {name: None for name in (next(iter(structures)),)}

@@ -165,18 +165,6 @@ def _of_structure(structure: str, name: str) -> str:
     return f"{structure}, {name}" if structure else name
 
 
-def record_sets(given: CampaignFile | str | Path) -> dict[str, tuple[str, ...]]:
-    """Return the names of the motions of each set of records; empty unless there are several."""
-    file = _read(given)
-    if len(file.motions.fema_p695) < 2:
-        return {}
-    found: dict[str, list[str]] = {}
-    motions = _motions(file, _path_of(file).resolve().parent)[0]
-    for name, facts in motions.facts.items():
-        found.setdefault(str(facts["set"]), []).append(name)
-    return {kind: tuple(names) for kind, names in found.items()}
-
-
 def fragility_in(given: CampaignFile | str | Path) -> FragilityTable | None:
     """Return the limit states and the intensity measure of a campaign's file."""
     return _read(given).fragility

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from frames.design.hazard.motion_set import facts_of
 from frames.design.project.inputs import in_section
 from frames.risk._errors import FragilityError
 from frames.risk.campaign.ductility import with_ductility
@@ -17,7 +18,6 @@ from frames.risk.campaign.file import (
     fragility_in,
     loss_in,
     models_in,
-    record_sets,
     scaled_to,
 )
 from frames.risk.campaign.indices import index_table
@@ -107,7 +107,12 @@ class CampaignTables:
     @cached_property
     def sets(self) -> dict[str, tuple[str, ...]]:
         """Names of the motions: all, and of each set of records if there are several."""
-        return {ALL_RECORDS: tuple(self.campaign.motions), **record_sets(self.file)}
+        motions = self.campaign.motions
+        found = {ALL_RECORDS: list(motions)}
+        if len(self.file.motions.fema_p695) > 1:
+            for name, facts in facts_of(motions).items():
+                found.setdefault(str(facts["set"]), []).append(name)
+        return {kind: tuple(names) for kind, names in found.items()}
 
     def _of_set(self, records: str) -> dict[str, IntensityRuns]:
         if records == ALL_RECORDS:

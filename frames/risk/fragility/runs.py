@@ -12,7 +12,7 @@ import pandas as pd
 
 from frames.batch.cases import NOT_BUILT
 from frames.batch.runs import Rows
-from frames.design.hazard.motion_set import MotionSet
+from frames.design.hazard.motion_set import facts_of
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.intensity import OWN, IntensityMeasure, is_same
 from frames.risk.fragility.limit_state import LimitState
@@ -190,7 +190,7 @@ class IntensityRuns(Rows, Shown):
         }
         status = [str(s) for s in own["status"].to_numpy()]
         quantities = [str(q) for q in own["quantity"].to_numpy()]
-        facts = motions.facts if isinstance(motions, MotionSet) else {}
+        facts = facts_of(motions)
         table = pd.DataFrame(
             {
                 "motion": used,
